@@ -3,7 +3,7 @@
 #include "actors/edge/http/client/http_client.hpp"
 #include "client/event_stream.hpp"
 #include "messages/codec/json_codec.hpp"
-#include "messages/error_code.hpp"
+#include "messages/failure.hpp"
 
 #include <utility>
 

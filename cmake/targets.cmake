@@ -53,7 +53,7 @@ if(ROSCELL_TIDY)
 endif()
 
 # Where programs are installed that nobody types, and skills. The node looks there
-# from its own place (actors/edge/host/installed_files.hpp).
+# from its own place (actors/edge/host/own_process.hpp).
 set(ROSCELL_PRIVATE_FOLDER lib/roscell)
 
 # roscell_unity(target): compiles the sources of each folder together, a few at

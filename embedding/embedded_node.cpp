@@ -8,7 +8,6 @@
 #include "embedding/skills/actor_runtime.hpp"
 #include "embedding/surroundings.hpp"
 #include "embedding/task_calls.hpp"
-#include "embedding/thread_setting.hpp"
 #include "messages/type_ids.hpp"
 
 #include <caf/actor_system.hpp>

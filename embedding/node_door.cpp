@@ -3,7 +3,7 @@
 #include "actors/core/answer_limits.hpp"
 #include "actors/core/shifted_times.hpp"
 #include "actors/core/watching.hpp"
-#include "schemas/schema_error.hpp"
+#include "schemas/validator.hpp"
 
 #include <caf/result.hpp>
 #include <caf/send.hpp>

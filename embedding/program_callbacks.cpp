@@ -2,7 +2,7 @@
 
 #include "actors/core/shifted_times.hpp"
 #include "actors/core/watching.hpp"
-#include "actors/node/event_loudness.hpp"
+#include "actors/node/event_series.hpp"
 #include "messages/codec/json_codec.hpp"
 #include "messages/event_kinds.hpp"
 #include "messages/messages.hpp"

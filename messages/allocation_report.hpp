@@ -1,6 +1,6 @@
 #pragma once
 
-#include "messages/skill_descriptor.hpp"
+#include "messages/skill.hpp"
 #include "messages/task.hpp"
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "messages/codec/described.hpp"
 #include "messages/node.hpp"
 #include "messages/task.hpp"
 
@@ -136,6 +137,16 @@ struct cell_list {
 
   static constexpr auto fields() {
     return field_list{required("cells", &cell_list::cells)};
+  }
+};
+
+/// As `cell_query`, after the nodes have been asked what they have and what is
+/// in use: for somebody who looks. Reply: `cell_description`.
+struct fresh_cell_query {
+  static constexpr const char* type = "fresh_cell_query";
+
+  static constexpr auto fields() {
+    return field_list{};
   }
 };
 

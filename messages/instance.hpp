@@ -1,6 +1,6 @@
 #pragma once
 
-#include "messages/codec/enum_words.hpp"
+#include "messages/codec/json_codec.hpp"
 #include "messages/life.hpp"
 #include "messages/resources.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "messages/codec/described.hpp"
-#include "messages/codec/enum_words.hpp"
+#include "messages/codec/json_codec.hpp"
 
 #include <array>
 #include <cstdint>

@@ -6,7 +6,9 @@
 #include "messages/skill.hpp"
 
 #include <array>
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// What a member and its coordinator say to each other over their session.
@@ -255,5 +257,16 @@ struct instance_changed {
     return field_list{required("instance", &instance_changed::instance)};
   }
 };
+
+/// What a UDP packet between two nodes of a session says.
+enum class heartbeat_kind : uint8_t {
+  heartbeat, ///< I am here; wants an ack.
+  ack,       ///< I have got a heartbeat.
+  probe,     ///< Are you there? Wants a heartbeat at once.
+};
+
+constexpr auto enum_words(heartbeat_kind) {
+  return std::array<std::string_view, 3>{"beat", "ack", "probe"};
+}
 
 } // namespace roscell

@@ -1,11 +1,147 @@
 #pragma once
 
-#include "messages/skill_descriptor.hpp"
+#include "messages/resources.hpp"
 
+#include <map>
 #include <string>
 #include <vector>
 
+/// The launcher's half of a skill: what `skill.json` says. Plain types, so that
+/// a skill or a tool can use them without an actor system.
 namespace roscell {
+
+struct port_description {
+  std::vector<std::string> data_types; ///< "sensor_msgs/msg/Image", MIME types.
+  std::vector<std::string> protocols;  ///< "ros2", "file", "video".
+
+  static constexpr auto fields() {
+    return field_list{required("data_types", &port_description::data_types),
+                      required("protocols", &port_description::protocols)};
+  }
+};
+
+/// How the kernel is to treat a program among others.
+struct scheduling_request {
+  std::string policy; ///< "other", "batch", "idle", "fifo", "rr"; empty: other.
+  int64_t priority = 0; ///< 1 to 99 of the last two, else 0.
+  int64_t nice = 0;     ///< -20 to 19 of the others.
+
+  static constexpr auto fields() {
+    return field_list{optional("policy", &scheduling_request::policy),
+                      optional("priority", &scheduling_request::priority),
+                      optional("nice", &scheduling_request::nice)};
+  }
+};
+
+/// One way to run a model.
+struct deployment_option {
+  std::string name;
+  std::string base_image; ///< Empty with the engine "actor" only.
+  std::vector<std::string> architectures; ///< Never empty.
+  resource_request resources;
+  std::vector<std::string> devices; ///< Device nodes the host must have.
+  std::map<std::string, std::string> labels; ///< Labels the node must have.
+  std::map<std::string, std::string> environment;
+  std::vector<std::string> volumes; ///< "/host/path:/container/path[:ro]".
+  /// What of root's power it needs, "NET_RAW"; given where the node's
+  /// configuration grants it to the skill, else the node is no place for it.
+  std::vector<std::string> capabilities;
+  bool read_only = false; ///< It writes nothing of its container but /tmp.
+  scheduling_request scheduling; ///< Granted as `capabilities` are.
+  /// JSON objects: what a step of it does unless the request says otherwise.
+  std::string restart;
+  std::string on_node_loss;
+  std::string health;
+  double safe_timeout_s = 0;
+  std::string on_boot; ///< A word of `boot_action`; empty: as `life_of` says.
+
+  static constexpr auto fields() {
+    return field_list{
+        required("name", &deployment_option::name),
+        optional("base_image", &deployment_option::base_image),
+        required("architectures", &deployment_option::architectures),
+        required("resources", &deployment_option::resources),
+        optional("devices", &deployment_option::devices),
+        optional("labels", &deployment_option::labels),
+        optional("environment", &deployment_option::environment),
+        optional("volumes", &deployment_option::volumes),
+        optional("capabilities", &deployment_option::capabilities),
+        optional("read_only", &deployment_option::read_only),
+        optional("scheduling", &deployment_option::scheduling),
+        raw_json("restart", &deployment_option::restart),
+        raw_json("on_node_loss", &deployment_option::on_node_loss),
+        raw_json("health", &deployment_option::health),
+        optional("safe_timeout_s", &deployment_option::safe_timeout_s),
+        optional("on_boot", &deployment_option::on_boot)};
+  }
+};
+
+/// One way to do the operation.
+struct implementation_model {
+  std::string name;
+  std::string parameters; ///< JSON object, may be empty.
+  std::vector<deployment_option> deployments;
+
+  static constexpr auto fields() {
+    return field_list{
+        required("name", &implementation_model::name),
+        raw_json("parameters", &implementation_model::parameters),
+        required("deployments", &implementation_model::deployments)};
+  }
+};
+
+/// A ROS 2 program that runs as it is, for the engine "ros2_standalone".
+struct ros2_program {
+  std::string package;    ///< Found by the ament index.
+  std::string executable; ///< Of the package, or an absolute path.
+  std::string launch;     ///< A launch file of the package, in its place.
+  std::vector<std::string> setup; ///< Files to source first, "setup.bash".
+  /// The program's own name for a topic, and the end of the step that it
+  /// stands for: "input", "output", "input:1", "output:0".
+  std::map<std::string, std::string> topics;
+  /// Given to the program; to a launch file as "NAME:=VALUE".
+  std::vector<std::string> arguments;
+  std::string parameters; ///< JSON object: ROS parameters of its nodes.
+
+  static constexpr auto fields() {
+    return field_list{optional("package", &ros2_program::package),
+                      optional("executable", &ros2_program::executable),
+                      optional("launch", &ros2_program::launch),
+                      optional("setup", &ros2_program::setup),
+                      optional("topics", &ros2_program::topics),
+                      optional("arguments", &ros2_program::arguments),
+                      raw_json("parameters", &ros2_program::parameters)};
+  }
+};
+
+/// JSON form: schemas/skill_descriptor.schema.json.
+struct skill_descriptor {
+  std::string operation;
+  std::string version; ///< Raised by the author; empty: see installed_skill.
+  std::string engine;  ///< "primitive", "ros2_standalone" or "actor".
+  std::vector<std::string>
+      entry_point; ///< Program below the folder, arguments.
+  port_description input;
+  port_description output;
+  std::vector<implementation_model> models;
+  std::vector<ros2_program> ros2; ///< One for "ros2_standalone", else none.
+  bool safe_state = false;        ///< It says when it may be ended.
+  bool may_start_alone = false;   ///< It may say `start`, safe state or not.
+
+  static constexpr auto fields() {
+    return field_list{
+        required("operation", &skill_descriptor::operation),
+        optional("version", &skill_descriptor::version),
+        required("engine", &skill_descriptor::engine),
+        optional("entry_point", &skill_descriptor::entry_point),
+        required("input", &skill_descriptor::input),
+        required("output", &skill_descriptor::output),
+        required("models", &skill_descriptor::models),
+        one_or_many("ros2", &skill_descriptor::ros2),
+        optional("safe_state", &skill_descriptor::safe_state),
+        optional("may_start_alone", &skill_descriptor::may_start_alone)};
+  }
+};
 
 /// A build of a skill that a node has: a skill folder. Operation and version
 /// say which skill it is. Two folders of the same content have the same hash,

@@ -1,9 +1,7 @@
 #include "schemas/message_catalogue.hpp"
 
-#include "messages/codec/enum_words.hpp"
-#include "schemas/closest_word.hpp"
+#include "messages/codec/json_codec.hpp"
 #include "schemas/embedded_schemas.hpp"
-#include "schemas/semantic_checks.hpp"
 #include "schemas/text_excerpt.hpp"
 #include "schemas/validator.hpp"
 

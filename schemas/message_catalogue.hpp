@@ -2,7 +2,6 @@
 
 #include "messages/codec/json_codec.hpp"
 #include "messages/failure.hpp"
-#include "schemas/schema_error.hpp"
 #include "schemas/validator.hpp"
 
 #include <array>

@@ -1,4 +1,4 @@
-#include "schemas/semantic_checks.hpp"
+#include "schemas/validator.hpp"
 
 #include "messages/stream_protocols.hpp"
 #include "schemas/checks/descriptor_checks.hpp"

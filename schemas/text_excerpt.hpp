@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 /// Words about JSON values, short enough for one line of an error message.
 namespace roscell {
@@ -27,5 +28,11 @@ std::string absence_text(std::string_view name, const std::string& expected);
 
 /// What a value is: `the number 7`, `"a b"`, `an array of 3 items`.
 std::string shown_value(const json& value);
+
+/// The one of `words` that `typed` was probably meant to be: the nearest in
+/// insertions, deletions and replacements, if at most a third of its characters
+/// differ. Empty if none is near, or if `typed` is longer than any word.
+std::string_view closest_word(std::string_view typed,
+                              const std::vector<std::string_view>& words);
 
 } // namespace roscell

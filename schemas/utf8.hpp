@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,5 +17,12 @@ size_t valid_utf8_prefix(std::string_view bytes);
 /// How many bytes at the end of `bytes` begin a character whose rest is
 /// missing; at most 3.
 size_t unfinished_utf8(std::string_view bytes);
+
+// Bytes as text (RFC 4648, section 4), for JSON, which has none.
+
+std::string to_base64(std::string_view bytes);
+
+/// Nothing for a text that is no base64.
+std::optional<std::string> from_base64(std::string_view text);
 
 } // namespace roscell

@@ -1,13 +1,30 @@
 #pragma once
 
 #include "messages/codec/json_codec.hpp"
-#include "schemas/schema_error.hpp"
+#include "messages/failure.hpp"
 
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace roscell {
+
+/// One place where a document breaks its schema.
+struct schema_error {
+  std::string pointer;  ///< JSON pointer (RFC 6901) to it, escaped.
+  std::string expected; ///< "expected ..., got ...".
+
+  friend bool operator==(const schema_error& x, const schema_error& y) {
+    return x.pointer == y.pointer && x.expected == y.expected;
+  }
+};
+
+/// All errors as one refusal: schema_violation, `where` the first place, and
+/// in `details` {"errors":[{"where","expected"}, ...]}. Of more than 50 errors
+/// the first 50 are listed, and "more" counts the others.
+/// `errors` must not be empty.
+failure to_failure(const std::vector<schema_error>& errors);
 
 struct schema_rule;
 
@@ -52,5 +69,13 @@ private:
 std::vector<schema_error>
 validate(const schema_rule& rule, const json& document,
          unknown_members others = unknown_members::taken);
+
+/// What a schema cannot express: ids that must differ from each other, paths
+/// that must stay below a folder, parts that are needed because of other parts.
+/// `type` names the schema of the document, which may still break it: parts of
+/// the wrong shape are passed over, so that both kinds of errors can be
+/// reported together.
+std::vector<schema_error> semantic_errors(std::string_view type,
+                                          const json& document);
 
 } // namespace roscell

@@ -130,9 +130,9 @@ fi
 
 # A delayed message keeps its receiver, and cannot be taken back.
 if grep -rnE 'delayed_(anon_)?send|schedule_message' --include='*.?pp' \
-     actors embedding skills tools | grep -v '^actors/core/delay.hpp:'; then
+     actors embedding skills tools | grep -v '^actors/core/alarm.hpp:'; then
   echo "law: an actor has actors/core/alarm.hpp, which ends with it; what lives as" \
-    "long as its node is told later by actors/core/delay.hpp"
+    "long as its node is told later by actors/core/alarm.hpp"
   broken=1
 fi
 

@@ -1,9 +1,8 @@
-#include "actors/cell/cell_balance.hpp"
-
 #include "actors/cell/cell_slots.hpp"
+
+#include "actors/cell/cell_departures.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/tasks/cell_instances.hpp"
-#include "actors/cell/transfers/transfer_start.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "actors/core/limits.hpp"
 #include "messages/event_kinds.hpp"

@@ -1,12 +1,12 @@
-#include "actors/cell/cell_drains.hpp"
+#include "actors/cell/cell_departures.hpp"
 
 #include "actors/cell/moves/task_move.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
+#include "actors/core/clocks.hpp"
 #include "actors/core/limits.hpp"
-#include "actors/core/wall_clock.hpp"
 #include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 

@@ -1,10 +1,8 @@
-#include "actors/cell/cell_formation.hpp"
-
 #include "actors/cell/cell_slots.hpp"
+
 #include "actors/cell/limits.hpp"
-#include "actors/cell/state/arrivals.hpp"
-#include "actors/cell/state/coordinator_publish.hpp"
-#include "actors/cell/transfers/named_node.hpp"
+#include "actors/cell/state/coordinator_store.hpp"
+#include "actors/cell/state/node_whereabouts.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "messages/failure.hpp"
 

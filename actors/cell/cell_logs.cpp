@@ -1,7 +1,6 @@
-#include "actors/cell/cell_logs.hpp"
+#include "actors/cell/cell_questions.hpp"
 
 #include "actors/cell/limits.hpp"
-#include "actors/cell/state/open_questions.hpp"
 #include "actors/cell/tasks/task_views.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "actors/edge/history/limits.hpp"

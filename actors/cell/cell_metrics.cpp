@@ -1,7 +1,6 @@
-#include "actors/cell/cell_metrics.hpp"
+#include "actors/cell/cell_questions.hpp"
 
 #include "actors/cell/limits.hpp"
-#include "actors/cell/state/open_questions.hpp"
 #include "actors/cell/streams/cell_streams.hpp"
 #include "actors/cell/tasks/task_views.hpp"
 

@@ -2,6 +2,8 @@
 
 #include "actors/cell/state/coordinator_state.hpp"
 
+#include <vector>
+
 /// What the CELL COORDINATOR does about other coordinators: it opens sessions
 /// to those that are announced, and weighs what they tell.
 namespace roscell {
@@ -21,5 +23,25 @@ void on_peer_changed(coordinator_pointer self, const peer_changed& event);
 
 /// Tries the sessions that are due.
 void open_due_peers(coordinator_pointer self);
+
+// What the CELL COORDINATOR does about what is announced on the public domain,
+// where anybody may announce anything: it is a hint about whom to ask.
+
+/// Announces the cell, and hears of others from then on.
+void appear(coordinator_pointer self);
+
+void on_presence_seen(coordinator_pointer self, const node_presence& who);
+void on_presence_gone(coordinator_pointer self, const node_presence& who);
+
+/// Asks the nodes on whose word a row hangs to prove it.
+void ask_due_proofs(coordinator_pointer self);
+
+/// The nodes that are in no cell, as far as is known here. Of those that have
+/// fallen silent only the ones that no cell has a row for.
+std::vector<unassigned_node>
+list_unassigned_nodes(const cell_coordinator_state& st);
+
+/// Every cell that is known, the own one first.
+std::vector<cell_row> list_cells(const cell_coordinator_state& st);
 
 } // namespace roscell

@@ -1,7 +1,7 @@
 #include "actors/cell/cell_slots.hpp"
 
 #include "actors/cell/limits.hpp"
-#include "actors/cell/state/coordinator_publish.hpp"
+#include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/session/limits.hpp"
 #include "messages/failure.hpp"

@@ -2,6 +2,10 @@
 
 #include "actors/cell/state/coordinator_state.hpp"
 
+#include <cstdint>
+#include <string>
+#include <vector>
+
 /// How the CELL COORDINATOR grants slots, so that nodes that come at the
 /// same moment spread evenly. The one with the lowest UUID does it for all.
 namespace roscell {
@@ -31,5 +35,37 @@ int64_t size_of(const cell_coordinator_state& st, const std::string& uuid,
 /// Drops the places that nobody has taken in time, and gives out those that
 /// have waited for sizes for too long.
 void settle_overdue_slots(coordinator_pointer self);
+
+// How the CELL COORDINATORS even their cells out after one has appeared or
+// died, or a place was not taken.
+
+/// A cell as the plan sees it.
+struct cell_size {
+  std::string uuid;
+  std::string cell;
+  int64_t size = 0;
+};
+
+/// So many members of one cell are to go to another one.
+struct cell_move {
+  std::string from; ///< UUIDs.
+  std::string to;
+  int64_t count = 0;
+};
+
+/// The fewest moves after which sizes differ by at most one. The largest cells
+/// keep the remainder, so nobody moves without need.
+std::vector<cell_move> plan_moves(std::vector<cell_size> cells);
+
+/// Evens out if it is time and this coordinator's part.
+void balance_if_due(coordinator_pointer self);
+
+caf::result<members_surrendered>
+hand_over_members(coordinator_pointer self, const member_surrender& request);
+
+// How the CELL COORDINATOR brings nodes in by their names.
+
+caf::result<cell_formed> form_cell(coordinator_pointer self,
+                                   const cell_formation& request);
 
 } // namespace roscell

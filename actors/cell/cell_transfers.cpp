@@ -1,12 +1,8 @@
-#include "actors/cell/cell_transfers.hpp"
+#include "actors/cell/cell_departures.hpp"
 
-#include "actors/cell/state/coordinator_publish.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
-#include "actors/cell/state/transfer_end.hpp"
-#include "actors/cell/transfers/named_node.hpp"
-#include "actors/cell/transfers/transfer_start.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "messages/failure.hpp"
 

@@ -3,7 +3,7 @@
 #include "actors/core/actor_directory.hpp"
 #include "actors/core/alarm.hpp"
 #include "actors/core/blocking_threads.hpp"
-#include "actors/core/boot_clock.hpp"
+#include "actors/core/clocks.hpp"
 #include "actors/core/metric_table.hpp"
 #include "messages/event_kinds.hpp"
 #include "messages/inside/introspection.hpp"

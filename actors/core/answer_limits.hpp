@@ -2,6 +2,10 @@
 
 #include "actors/edge/limit_units.hpp"
 
+#include <chrono>
+#include <optional>
+#include <string_view>
+
 /// How long each waits for an answer that passes through several parts and
 /// nodes. Who is farther out waits longer.
 namespace roscell::limits {
@@ -81,3 +85,14 @@ constexpr seconds stream{60};
 } // namespace log
 
 } // namespace roscell::limits
+
+namespace roscell {
+
+/// How long a node has for a request that it answers about itself, and that
+/// another node of its cell may send it by their coordinator; none for others.
+std::optional<std::chrono::milliseconds> relayed_limit(std::string_view type);
+
+/// What each hop on the way adds to that.
+constexpr std::chrono::seconds relay_margin{2};
+
+} // namespace roscell

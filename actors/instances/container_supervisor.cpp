@@ -1,11 +1,9 @@
 #include "actors/instances/container_supervisor.hpp"
 
-#include "actors/core/wall_clock.hpp"
-#include "actors/instances/instance_removal.hpp"
-#include "actors/instances/instance_upkeep.hpp"
+#include "actors/core/clocks.hpp"
+#include "actors/instances/container_supervisor_steps.hpp"
 #include "actors/instances/life/any_runtime.hpp"
 #include "actors/instances/limits.hpp"
-#include "actors/instances/supervised_logs.hpp"
 #include "messages/failure.hpp"
 
 #include <caf/result.hpp>

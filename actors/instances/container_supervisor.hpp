@@ -1,9 +1,8 @@
 #pragma once
 
 #include "actors/core/actor_context.hpp"
-#include "actors/edge/process/environment_file.hpp"
+#include "actors/edge/process/notify_socket.hpp"
 #include "actors/edge/process/skill_grants.hpp"
-#include "actors/instances/life/quiet_notice.hpp"
 #include "actors/instances/life/skill_metrics.hpp"
 #include "actors/instances/skills/skill_catalogue.hpp"
 #include "messages/messages.hpp"

@@ -1,8 +1,7 @@
-#include "actors/instances/instance_removal.hpp"
+#include "actors/instances/container_supervisor_steps.hpp"
 
 #include "actors/edge/limit_units.hpp"
 #include "actors/instances/limits.hpp"
-#include "actors/instances/supervised_logs.hpp"
 
 #include <caf/result.hpp>
 #include <caf/send.hpp>

@@ -1,6 +1,6 @@
-#include "actors/instances/instance_upkeep.hpp"
+#include "actors/instances/container_supervisor_steps.hpp"
 
-#include "actors/core/wall_clock.hpp"
+#include "actors/core/clocks.hpp"
 #include "actors/core/watching.hpp"
 #include "actors/instances/life/any_runtime.hpp"
 #include "actors/instances/life/instance_text.hpp"

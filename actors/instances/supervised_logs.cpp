@@ -1,9 +1,9 @@
-#include "actors/instances/supervised_logs.hpp"
+#include "actors/instances/container_supervisor_steps.hpp"
 
 #include "actors/core/answer_limits.hpp"
+#include "actors/instances/life/any_runtime.hpp"
 #include "actors/instances/life/instance_text.hpp"
 #include "actors/instances/limits.hpp"
-#include "actors/instances/logs/log_following.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>

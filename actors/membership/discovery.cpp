@@ -2,11 +2,9 @@
 
 #include "actors/core/edge_failure.hpp"
 #include "actors/edge/dds/announcement.hpp"
-#include "actors/edge/io/name_lookup.hpp"
 #include "actors/edge/io/plain_text.hpp"
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/membership/limits.hpp"
-#include "actors/membership/program_servers.hpp"
 #include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 

@@ -1,6 +1,6 @@
 #include "actors/membership/join_diagnoser.hpp"
 
-#include "actors/edge/io/name_lookup.hpp"
+#include "actors/edge/io/socket_address.hpp"
 #include "actors/edge/session/address_probe.hpp"
 #include "actors/membership/limits.hpp"
 #include "messages/failure.hpp"

@@ -26,7 +26,7 @@ struct join_diagnoser_state {
   std::map<uint64_t, caf::typed_response_promise<server_probed>> addresses;
 };
 
-/// The JOIN SCOUT. Messages: messages/inside/join_diagnosis.hpp.
+/// The JOIN SCOUT. Messages: messages/inside/membership.hpp.
 join_diagnoser_actor::behavior_type join_diagnoser(
     join_diagnoser_actor::stateful_pointer<join_diagnoser_state> self,
     const join_diagnoser_config& config);

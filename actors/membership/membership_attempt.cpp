@@ -1,6 +1,6 @@
 #include "actors/core/answer_limits.hpp"
-#include "actors/core/wall_clock.hpp"
-#include "actors/membership/join_text.hpp"
+#include "actors/core/clocks.hpp"
+#include "actors/membership/join_report.hpp"
 #include "actors/membership/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
 #include "actors/session/limits.hpp"

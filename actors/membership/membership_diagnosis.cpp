@@ -1,6 +1,6 @@
 #include "actors/core/answer_limits.hpp"
 #include "actors/edge/io/socket_address.hpp"
-#include "actors/membership/join_text.hpp"
+#include "actors/membership/join_report.hpp"
 #include "actors/membership/limits.hpp"
 #include "actors/membership/membership_steps.hpp"
 #include "messages/event_kinds.hpp"

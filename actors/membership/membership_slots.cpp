@@ -1,4 +1,4 @@
-#include "actors/core/wall_clock.hpp"
+#include "actors/core/clocks.hpp"
 #include "actors/edge/session/limits.hpp"
 #include "actors/membership/limits.hpp"
 #include "actors/membership/membership_steps.hpp"

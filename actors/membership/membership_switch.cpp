@@ -1,6 +1,6 @@
 #include "actors/core/answer_limits.hpp"
 #include "actors/membership/membership_steps.hpp"
-#include "actors/session/registration/registration_order.hpp"
+#include "actors/session/registration_client.hpp"
 #include "messages/event_kinds.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-#include "actors/membership/program_servers.hpp"
+#include "actors/membership/discovery.hpp"
 
-#include "actors/core/delay.hpp"
+#include "actors/core/alarm.hpp"
 #include "actors/core/edge_failure.hpp"
 #include "actors/edge/io/socket_address.hpp"
 

@@ -1,4 +1,4 @@
-#include "actors/node/event_batches.hpp"
+#include "actors/node/event_log.hpp"
 
 #include "actors/node/limits.hpp"
 #include "messages/event_kinds.hpp"

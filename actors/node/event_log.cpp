@@ -1,8 +1,7 @@
 #include "actors/node/event_log.hpp"
 
-#include "actors/core/wall_clock.hpp"
+#include "actors/core/clocks.hpp"
 #include "actors/core/watching.hpp"
-#include "actors/node/event_batches.hpp"
 #include "actors/node/limits.hpp"
 #include "messages/failure.hpp"
 

@@ -3,7 +3,6 @@
 #include "actors/core/actor_context.hpp"
 #include "actors/core/alarm.hpp"
 #include "actors/node/event_series.hpp"
-#include "actors/node/refusal_gate.hpp"
 #include "messages/messages.hpp"
 
 #include <deque>
@@ -43,5 +42,15 @@ struct event_log_state {
 event_log_actor::behavior_type
 event_log(event_log_actor::stateful_pointer<event_log_state> self,
           const event_log_setup& setup);
+
+// INTERNAL to the event log: how what it keeps gets to the disk.
+
+using event_log_pointer = event_log_actor::stateful_pointer<event_log_state>;
+
+/// It is written with those that come soon after it.
+void add_to_batch(event_log_pointer self, const event& x);
+
+/// Has written what waits. Where the node ends the log ends behind it.
+void write_batch(event_log_pointer self);
 
 } // namespace roscell

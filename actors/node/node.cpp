@@ -1,8 +1,8 @@
 #include "actors/node/node.hpp"
 
 #include "actors/core/answer_limits.hpp"
+#include "actors/core/clocks.hpp"
 #include "actors/core/program_version.hpp"
-#include "actors/core/wall_clock.hpp"
 #include "actors/core/watching.hpp"
 #include "actors/node/limits.hpp"
 #include "messages/event_kinds.hpp"

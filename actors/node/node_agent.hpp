@@ -4,6 +4,8 @@
 #include "actors/node/reservation_table.hpp"
 #include "messages/messages.hpp"
 
+#include <caf/result.hpp>
+
 #include <map>
 #include <string>
 #include <vector>
@@ -34,5 +36,13 @@ struct node_agent_state {
 node_agent_actor::behavior_type
 node_agent(node_agent_actor::stateful_pointer<node_agent_state> self,
            const node_agent_config& config);
+
+// INTERNAL to the node agent.
+
+using node_agent_pointer = node_agent_actor::stateful_pointer<node_agent_state>;
+
+/// What skills say of themselves, and what the host says of them. Nothing is
+/// read unless somebody asks.
+caf::result<figures_report> report_metrics(node_agent_pointer self);
 
 } // namespace roscell

@@ -9,7 +9,7 @@
 #include "actors/node/node_edges.hpp"
 #include "actors/node/node_runtime.hpp"
 #include "actors/node/spawn_node.hpp"
-#include "actors/placement/search_guard.hpp"
+#include "actors/placement/searcher.hpp"
 
 #include <caf/actor_cast.hpp>
 #include <caf/actor_system.hpp>

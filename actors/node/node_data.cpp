@@ -1,11 +1,10 @@
 #include "actors/node/node_data.hpp"
 
 #include "actors/core/edge_failure.hpp"
-#include "actors/edge/disk/put_aside.hpp"
+#include "actors/edge/disk/data_folder.hpp"
 #include "actors/edge/io/crypto.hpp"
-#include "actors/node/node_tokens.hpp"
 #include "messages/failure.hpp"
-#include "schemas/decode.hpp"
+#include "schemas/document.hpp"
 
 #include <algorithm>
 #include <map>

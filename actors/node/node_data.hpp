@@ -1,13 +1,13 @@
 #pragma once
 
 #include "actors/cell/tables/cell_registry.hpp"
-#include "actors/cell/tables/drain_table.hpp"
 #include "actors/cell/tables/history_table.hpp"
 #include "actors/cell/tables/task_table.hpp"
-#include "actors/edge/disk/directory_lock.hpp"
+#include "actors/cell/tables/transfer_table.hpp"
+#include "actors/edge/disk/data_folder.hpp"
 #include "actors/edge/disk/sqlite_store.hpp"
 #include "actors/edge/history/history_folder.hpp"
-#include "actors/edge/site/site_secret.hpp"
+#include "actors/edge/session/site_token.hpp"
 #include "messages/inside/membership.hpp"
 #include "messages/node.hpp"
 #include "roscell/node_config.hpp"
@@ -67,5 +67,18 @@ struct node_data {
 /// Errors: conflict (another node uses the directory), internal (no permission,
 /// disk full, damaged database), unauthorized (a bad site token file).
 caf::expected<node_data> open_node_data(const node_config& config);
+
+// The secrets that a node has in files. Least and most lengths:
+// `limits::token`.
+
+/// The bearer token for HTTP over TCP, in a file that only its owner can read;
+/// made where there is none. Errors: internal (no permission, disk full).
+caf::expected<std::string> load_bearer_token(const std::filesystem::path& file);
+
+/// What proves the node to others of its site: the file that the configuration
+/// names, or that of this user, which a coordinator makes where there is none.
+/// Another node may learn of it later. Errors: those of `read_site_token` and
+/// `make_site_token`.
+caf::expected<site_secret> load_site_secret(const node_config& config);
 
 } // namespace roscell

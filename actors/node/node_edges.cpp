@@ -2,11 +2,11 @@
 
 #include "actors/core/edge_failure.hpp"
 #include "actors/edge/dds/announcement.hpp"
-#include "actors/edge/http/http_paths.hpp"
+#include "actors/edge/http/http_target.hpp"
+#include "actors/node/cell_claim.hpp"
 #include "actors/node/limits.hpp"
-#include "actors/node/start/cell_claim.hpp"
 #include "actors/session/wire_session.hpp"
-#include "dds/server_ids.hpp"
+#include "dds/server_addresses.hpp"
 #include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "actors/core/actor_context.hpp"
 #include "actors/edge/dds/discovery_server.hpp"
-#include "actors/edge/http/node_sockets.hpp"
+#include "actors/edge/http/http_server.hpp"
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/node/node_data.hpp"
 #include "messages/messages.hpp"

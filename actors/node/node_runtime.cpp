@@ -2,18 +2,19 @@
 
 #include "actors/core/edge_failure.hpp"
 #include "actors/edge/engine/engine_search.hpp"
-#include "actors/edge/host/installed_files.hpp"
+#include "actors/edge/host/own_process.hpp"
 #include "actors/edge/process/notify_socket.hpp"
 #include "actors/instances/engine/engine_runtime.hpp"
 #include "actors/instances/process/process_runtime.hpp"
 #include "messages/failure.hpp"
 
+#include <unistd.h>
+
 #include <filesystem>
+#include <memory>
 #include <system_error>
 #include <utility>
 #include <variant>
-
-#include <unistd.h>
 
 namespace roscell {
 
@@ -137,6 +138,26 @@ environment_writer make_environment_writer(const node_config& config,
                             : notify_path(data_dir / "instances" / instance);
     return write_environment_update(environment_file_of(socket), variables);
   };
+}
+
+caf::expected<shared_skill_catalogue>
+offered_skills(const node_config& config, const chosen_runtime& runtime,
+               const std::vector<std::string>& actor_skills) {
+  auto dirs = config.skill_dirs;
+  // The usual places need not be there; those that were named must be.
+  for (auto& usual :
+       {installed_skills(program_folder()), config.data_dir / "skills"})
+    if (is_directory(usual) && !names_folder(dirs, usual))
+      dirs.push_back(usual);
+  const skill_host host{own_architecture(), runtime.socket.empty()};
+  auto result =
+      std::make_shared<skill_catalogue>(skill_catalogue::scan(dirs, host));
+  for (const auto& text : actor_skills)
+    if (const auto errors = result->add_actor_skill(text); !errors.empty())
+      return fail(error_code::schema_violation,
+                  "the descriptor of an actor skill: " + errors[0].expected,
+                  errors[0].pointer);
+  return shared_skill_catalogue{std::move(result)};
 }
 
 } // namespace roscell

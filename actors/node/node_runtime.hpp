@@ -3,7 +3,8 @@
 #include "actors/core/actor_context.hpp"
 #include "actors/edge/cgroup/cgroup_place.hpp"
 #include "actors/edge/io/io_thread.hpp"
-#include "actors/edge/process/environment_file.hpp"
+#include "actors/edge/process/notify_socket.hpp"
+#include "actors/instances/skills/skill_catalogue.hpp"
 #include "messages/messages.hpp"
 #include "roscell/node_config.hpp"
 
@@ -12,6 +13,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace roscell {
 
@@ -49,5 +51,14 @@ runtime_factory(caf::actor_system& system, const actor_context& context,
 /// variables.
 environment_writer make_environment_writer(const node_config& config,
                                            const chosen_runtime& chosen);
+
+/// The skills in the folders of a node, and those whose instances are actors of
+/// this process, by their descriptors. Blocks on the disk. What is wrong in a
+/// folder is among the problems of the catalogue.
+///
+/// Errors: schema_violation (a descriptor in `actor_skills`).
+caf::expected<shared_skill_catalogue>
+offered_skills(const node_config& config, const chosen_runtime& runtime,
+               const std::vector<std::string>& actor_skills);
 
 } // namespace roscell

@@ -1,10 +1,10 @@
-#include "actors/node/node_tokens.hpp"
+#include "actors/node/node_data.hpp"
 
 #include "actors/core/edge_failure.hpp"
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/io/crypto.hpp"
-#include "actors/edge/site/limits.hpp"
-#include "actors/edge/site/site_token_file.hpp"
+#include "actors/edge/session/limits.hpp"
+#include "actors/edge/session/site_token.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "actors/node/resource_probe.hpp"
 
 #include "actors/edge/host/instance_use.hpp"
-#include "actors/edge/host/limits.hpp"
+#include "actors/edge/limits.hpp"
 
 #include <algorithm>
 #include <utility>

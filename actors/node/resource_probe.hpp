@@ -3,7 +3,7 @@
 #include "actors/core/actor_context.hpp"
 #include "actors/edge/host/host_probe.hpp"
 #include "actors/edge/host/host_probe_capacity.hpp"
-#include "actors/edge/host/host_probe_processes.hpp"
+#include "actors/edge/host/instance_use.hpp"
 #include "messages/messages.hpp"
 
 #include <chrono>

@@ -1,12 +1,11 @@
 #include "actors/node/spawn_node.hpp"
 
 #include "actors/core/edge_failure.hpp"
+#include "actors/node/config_checks.hpp"
 #include "actors/node/event_log.hpp"
-#include "actors/node/history/node_history.hpp"
 #include "actors/node/node_builder.hpp"
-#include "actors/node/start/config_checks.hpp"
-#include "actors/node/start/granted.hpp"
-#include "actors/node/start/offered_skills.hpp"
+#include "actors/node/node_history.hpp"
+#include "actors/node/node_runtime.hpp"
 #include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 

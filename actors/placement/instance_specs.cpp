@@ -1,7 +1,8 @@
 #include "actors/placement/instance_specs.hpp"
 
-#include "actors/placement/life_resolution.hpp"
-#include "actors/placement/upstream_steps.hpp"
+#include "actors/placement/reading/stream_names.hpp"
+#include "actors/placement/skill_resolution.hpp"
+#include "messages/stream_protocols.hpp"
 #include "schemas/parameters/declared_parameter.hpp"
 
 #include <algorithm>
@@ -67,6 +68,34 @@ std::vector<instance_spec> make_specs(const allocated_task& task) {
   }
   name_upstream_steps(result);
   return result;
+}
+
+namespace {
+
+bool same_stream(const io_endpoint& x, const io_endpoint& y) {
+  return x.protocol == y.protocol
+         && (x.protocol == protocols::ros2
+                 ? full_topic(x.endpoint) == full_topic(y.endpoint)
+                 : x.endpoint == y.endpoint);
+}
+
+bool writes(const instance_spec& step, const io_endpoint& input) {
+  return std::any_of(
+      step.output.begin(), step.output.end(),
+      [&](const io_endpoint& x) { return same_stream(x, input); });
+}
+
+} // namespace
+
+void name_upstream_steps(std::vector<instance_spec>& task) {
+  for (auto& reader : task)
+    for (auto& input : reader.input) {
+      const auto writer =
+          std::find_if(task.begin(), task.end(),
+                       [&](const auto& x) { return writes(x, input); });
+      if (!input.external && writer != task.end())
+        input.from = writer->step;
+    }
 }
 
 } // namespace roscell

@@ -1,7 +1,7 @@
-#include "actors/placement/life_resolution.hpp"
+#include "actors/placement/skill_resolution.hpp"
 
 #include "actors/edge/session/limits.hpp"
-#include "schemas/decode.hpp"
+#include "schemas/document.hpp"
 
 #include <chrono>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "actors/placement/reservation.hpp"
 
-#include "actors/placement/search/constraints.hpp"
+#include "actors/placement/search/candidates.hpp"
 #include "actors/placement/search/occupancy.hpp"
 
 #include <algorithm>

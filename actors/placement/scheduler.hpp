@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/core/actor_context.hpp"
-#include "actors/placement/search_guard.hpp"
+#include "actors/placement/searcher.hpp"
 #include "messages/messages.hpp"
 
 #include <functional>

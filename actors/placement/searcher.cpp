@@ -2,7 +2,6 @@
 
 #include "actors/core/watching.hpp"
 #include "actors/placement/limits.hpp"
-#include "actors/placement/questions/move_planning.hpp"
 #include "actors/placement/questions/task_allocation.hpp"
 #include "messages/failure.hpp"
 
@@ -86,6 +85,27 @@ scheduler_actor::behavior_type searcher(searcher_self self,
       [self](const allocate_task& asked) { return search(self, asked); },
       [self](const plan_moves& asked) { return search_moves(self, asked); },
   };
+}
+
+void search_guard::begin(std::set<std::string> nodes) {
+  const std::lock_guard<std::mutex> lock{mutex_};
+  nodes_ = std::move(nodes);
+  gone_.clear();
+  stopped_ = false;
+}
+
+void search_guard::node_left(const std::string& node) {
+  const std::lock_guard<std::mutex> lock{mutex_};
+  if (nodes_.count(node) == 0 || stopped_)
+    return;
+  gone_ = node;
+  stopped_ = true;
+}
+
+std::string search_guard::end() {
+  const std::lock_guard<std::mutex> lock{mutex_};
+  nodes_.clear();
+  return std::exchange(gone_, {});
 }
 
 } // namespace roscell

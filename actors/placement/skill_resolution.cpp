@@ -1,7 +1,5 @@
 #include "actors/placement/skill_resolution.hpp"
 
-#include "actors/placement/life_resolution.hpp"
-
 #include <algorithm>
 #include <map>
 #include <optional>

@@ -3,6 +3,7 @@
 #include "messages/failure.hpp"
 #include "messages/inside/placement.hpp"
 
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -21,5 +22,18 @@ namespace roscell {
 std::variant<std::vector<resolved_step>, failure>
 resolve_steps(const std::vector<task_step>& pipeline, const skill_list& skills,
               const std::string& pointer = "/pipeline");
+
+// How a step is to live: what its request says, over what its skill says, over
+// the defaults.
+
+/// Both have passed their schemas.
+life_policy life_of(const task_step& step, const deployment_option& option,
+                    bool safe_state);
+
+/// Why a step cannot live so. `where` is relative to the step.
+/// Errors: schema_violation.
+std::optional<failure> check_life(const task_step& step,
+                                  const deployment_option& option,
+                                  const skill_descriptor& descriptor);
 
 } // namespace roscell

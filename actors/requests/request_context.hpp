@@ -2,8 +2,8 @@
 
 #include "actors/core/actor_context.hpp"
 #include "actors/edge/dds/ros_graph.hpp"
-#include "actors/requests/cost/cost_meter.hpp"
-#include "actors/requests/history/request_history.hpp"
+#include "actors/requests/cost/cost_ring.hpp"
+#include "actors/requests/request_history.hpp"
 #include "messages/failure.hpp"
 #include "messages/messages.hpp"
 

@@ -1,8 +1,7 @@
 #include "actors/requests/request_router.hpp"
 
 #include "actors/core/answer_limits.hpp"
-#include "actors/core/relayed_requests.hpp"
-#include "actors/core/wall_clock.hpp"
+#include "actors/core/clocks.hpp"
 #include "actors/core/watching.hpp"
 #include "actors/edge/http/limits.hpp"
 #include "actors/requests/handler_pipeline.hpp"

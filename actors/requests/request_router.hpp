@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/requests/answer_memory.hpp"
-#include "actors/requests/request_registry.hpp"
+#include "actors/requests/handler_pipeline.hpp"
 
 #include <caf/actor_addr.hpp>
 #include <caf/typed_response_promise.hpp>

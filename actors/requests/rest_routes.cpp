@@ -1,6 +1,6 @@
 #include "actors/requests/rest_routes.hpp"
 
-#include "actors/edge/http/http_paths.hpp"
+#include "actors/edge/http/http_target.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -3,7 +3,7 @@
 #include "actors/edge/http/http_types.hpp"
 #include "actors/requests/metrics/exposition.hpp"
 #include "messages/failure.hpp"
-#include "messages/inside/history.hpp"
+#include "messages/inside/storage.hpp"
 #include "messages/instance.hpp"
 
 #include <cstdint>

@@ -3,15 +3,29 @@
 #include "actors/core/actor_context.hpp"
 #include "actors/edge/http/http_types.hpp"
 #include "actors/requests/rest_routes.hpp"
-#include "actors/requests/timed_log.hpp"
+#include "messages/instance.hpp"
 #include "messages/messages.hpp"
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <variant>
 
-/// Answers without an end: the event stream, and logs that are followed.
 namespace roscell {
+
+/// Puts the parts of one log together, each line behind its time, where the
+/// parts tell times: "2026-11-22T17:01:02.345Z a line". A line that comes in
+/// several parts gets its time once, one whose time is not known a "-".
+class timed_log {
+public:
+  /// What is to be shown of the next part, byte by byte as it was logged.
+  std::string add(const log_excerpt& part);
+
+private:
+  bool in_line_ = false; ///< The part before has ended within a line.
+};
+
+// Answers without an end: the event stream, and logs that are followed.
 
 /// An EVENT STREAM writes each event as one server-sent event.
 using event_stream_actor = introspected_actor::extend<caf::reacts_to<event>>;

@@ -1,8 +1,10 @@
 #pragma once
 
-#include "actors/session/session_envelope.hpp"
+#include "messages/codec/json_codec.hpp"
 #include "messages/failure.hpp"
-#include "schemas/decode.hpp"
+#include "messages/inside/requests.hpp"
+#include "messages/session.hpp"
+#include "schemas/document.hpp"
 
 #include <caf/expected.hpp>
 
@@ -12,9 +14,33 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
+#include <vector>
 
+/// The frames that pass between a member and its coordinator, as text.
 namespace roscell {
+
+enum class envelope_kind { request, reply, notice };
+
+/// A frame that came in. Its body has passed its schema unless `refused`.
+struct session_envelope {
+  envelope_kind kind = envelope_kind::notice;
+  uint64_t id = 0; ///< Of a request or reply.
+  json body;
+  std::optional<failure> refused; ///< What is wrong with the body.
+};
+
+/// Reads one frame. Nothing when not even the envelope can be read, and so
+/// nobody can be told.
+std::optional<session_envelope> read_envelope(std::string_view text);
+
+/// The body of a frame that answers what the request router has answered, or
+/// says that it is too large for one.
+json body_of(const request_routed& answer);
+
+/// The text of a frame. `id` is of no interest to a notice.
+std::string write_envelope(envelope_kind kind, uint64_t id, json body);
 
 /// The requests that one side of a session has sent and that wait for their
 /// replies. Pure: told the time, and it hands out the frames to send.
@@ -72,5 +98,9 @@ caf::expected<Reply> reply_as(const json& body) {
   return fail(error_code::internal, "the peer's answer makes no sense: "
                                         + std::get<failure>(decoded).message);
 }
+
+/// Takes the starts out of an answer to a registration for which one frame has
+/// no room: parameters may be long. They follow it as requests of their own.
+std::vector<instance_spec> take_long_starts(node_registered& answer);
 
 } // namespace roscell

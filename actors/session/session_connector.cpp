@@ -2,7 +2,7 @@
 
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/edge/session/session_link.hpp"
-#include "actors/edge/site/site_token_file.hpp"
+#include "actors/edge/session/site_token.hpp"
 #include "actors/session/wire_session.hpp"
 #include "messages/failure.hpp"
 

@@ -3,7 +3,7 @@
 #include "actors/core/actor_context.hpp"
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/session/heartbeat_socket.hpp"
-#include "actors/edge/site/site_secret.hpp"
+#include "actors/edge/session/site_token.hpp"
 #include "messages/messages.hpp"
 
 #include <caf/typed_response_promise.hpp>

@@ -2,7 +2,6 @@
 
 #include "actors/core/watching.hpp"
 #include "actors/instances/limits.hpp"
-#include "embedding/skills/skill_logs.hpp"
 #include "messages/failure.hpp"
 #include "roscell/ros2.hpp"
 #include "roscell/skill/errors.hpp"

@@ -2,10 +2,11 @@
 
 #include "actors/core/actor_context.hpp"
 #include "actors/core/alarm.hpp"
-#include "actors/instances/logs/log_following.hpp"
+#include "actors/instances/life/any_runtime.hpp"
 #include "embedding/skills/messages.hpp"
 #include "embedding/skills/skill_keeper.hpp"
 
+#include <caf/result.hpp>
 #include <caf/typed_response_promise.hpp>
 
 #include <cstddef>
@@ -58,5 +59,18 @@ using actor_runtime_pointer =
 actor_runtime_actor::behavior_type
 actor_runtime(actor_runtime_pointer self, const actor_runtime_config& config,
               container_listener_actor listener);
+
+// INTERNAL to the actor runtime: who reads the logs of its instances.
+
+/// Errors: unknown_task (no log of that instance), conflict (too many wait for
+/// more).
+caf::result<log_excerpt> read_log(actor_runtime_pointer self,
+                                  const log_query& query);
+
+/// Answers those for whom there is something, or who have waited long enough.
+void serve_followers(actor_runtime_pointer self, kept_skill& x);
+
+/// Answers all of them: nothing will follow.
+void release_followers(kept_skill& x);
 
 } // namespace roscell::embedding

@@ -1,7 +1,7 @@
 #include "embedding/skills/line_ring.hpp"
 
-#include "actors/edge/process/limits.hpp"
-#include "actors/edge/process/line_times.hpp"
+#include "actors/edge/limits.hpp"
+#include "actors/edge/process/instance_log.hpp"
 #include "schemas/utf8.hpp"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 #include "actors/core/watching.hpp"
 #include "actors/instances/limits.hpp"
 #include "roscell/skill/errors.hpp"
-#include "skills/engine/life/frame_text.hpp"
 #include "skills/engine/life/heartbeat.hpp"
+#include "skills/engine/life/processing_times.hpp"
 
 #include <caf/exit_reason.hpp>
 #include <caf/sec.hpp>

@@ -1,6 +1,6 @@
-#include "embedding/skills/skill_logs.hpp"
+#include "embedding/skills/actor_runtime.hpp"
 
-#include "actors/edge/process/limits.hpp"
+#include "actors/edge/limits.hpp"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 #include "embedding/skills/skill_side.hpp"
 
-#include "actors/core/wall_clock.hpp"
+#include "actors/core/clocks.hpp"
 #include "messages/stream_protocols.hpp"
 #include "roscell/skill/errors.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "embedding/skills/frame_hub.hpp"
+#include "embedding/skills/frame_inbox.hpp"
 #include "embedding/skills/line_ring.hpp"
 #include "messages/life.hpp"
 #include "roscell/actor_skill.hpp"

@@ -1,12 +1,10 @@
 #include "messages/allocation_report.hpp"
+#include "messages/cell.hpp"
 #include "messages/codec/instantiate.hpp"
-#include "messages/insight/actor_inspection.hpp"
-#include "messages/insight/fresh_cell_query.hpp"
+#include "messages/insight/examination.hpp"
 #include "messages/insight/request_trace.hpp"
-#include "messages/insight/task_placement.hpp"
 #include "messages/reservation.hpp"
 #include "messages/skill.hpp"
-#include "messages/skill_descriptor.hpp"
 #include "messages/task.hpp"
 
 namespace roscell {

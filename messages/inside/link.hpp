@@ -2,9 +2,9 @@
 
 #include "messages/actors.hpp"
 #include "messages/failure.hpp"
-#include "messages/heartbeat.hpp"
 #include "messages/inside/introspection.hpp"
 #include "messages/node.hpp"
+#include "messages/session.hpp"
 
 #include <array>
 #include <string>

@@ -5,7 +5,7 @@
 #include "messages/instance.hpp"
 #include "messages/kept_log.hpp"
 #include "messages/session.hpp"
-#include "messages/skill_descriptor.hpp"
+#include "messages/skill.hpp"
 
 #include <array>
 #include <map>

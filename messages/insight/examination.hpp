@@ -1,7 +1,8 @@
 #pragma once
 
 #include "messages/codec/described.hpp"
-#include "messages/codec/enum_words.hpp"
+#include "messages/codec/json_codec.hpp"
+#include "messages/node.hpp"
 
 #include <array>
 #include <string>
@@ -65,6 +66,39 @@ struct examination {
   static constexpr auto fields() {
     return field_list{required("node", &examination::node),
                       required("findings", &examination::found)};
+  }
+};
+
+/// Asks actors of a node what they know.
+struct actor_query {
+  static constexpr const char* type = "actor_query";
+  std::string actor; ///< A name, which several may have, or an id.
+  std::string node;  ///< Whose; empty: the one that is asked.
+
+  static constexpr auto fields() {
+    return field_list{required("actor", &actor_query::actor),
+                      optional("node", &actor_query::node)};
+  }
+};
+
+/// One actor, looked into.
+struct inspected_actor_row {
+  actor_row counters;
+  std::string state; ///< JSON object; empty: it gave no answer in time.
+
+  static constexpr auto fields() {
+    return field_list{required("counters", &inspected_actor_row::counters),
+                      raw_json("state", &inspected_actor_row::state)};
+  }
+};
+
+/// Reply to `actor_query`, the oldest actor first.
+struct actor_inspection {
+  static constexpr const char* type = "actor_inspection";
+  std::vector<inspected_actor_row> actors;
+
+  static constexpr auto fields() {
+    return field_list{required("actors", &actor_inspection::actors)};
   }
 };
 

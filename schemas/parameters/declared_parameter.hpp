@@ -1,7 +1,8 @@
 #pragma once
 
 #include "messages/codec/json_codec.hpp"
-#include "schemas/schema_error.hpp"
+#include "messages/skill.hpp"
+#include "schemas/validator.hpp"
 
 #include <limits>
 #include <map>
@@ -50,5 +51,40 @@ json parameter_defaults(const json& parameters);
 /// What an instance gets: the defaults, with what its step says put over them.
 /// @param model, step JSON objects as text; empty: none.
 json step_parameters(const std::string& model, const std::string& step);
+
+/// What a step may set for a model: what the model declares, and what its
+/// skill's engine and the protocols that the skill speaks understand.
+declared_parameters parameters_of(const skill_descriptor& skill,
+                                  const implementation_model& model);
+
+/// What is wrong with the parameters that a step gives, an object: names that
+/// are not known, with the one that was probably meant, and values. Pointers
+/// begin with `place`.
+std::vector<schema_error> parameter_errors(const declared_parameters& known,
+                                           const json& given,
+                                           const std::string& place);
+
+// Values as a ROS 2 program takes them: `-p NAME:=VALUE`, which rcl reads as
+// YAML and types by its form, or `NAME:=VALUE` of a launch file, which is text
+// that launch reads as YAML where it becomes a parameter.
+
+enum class ros_reader { program, launch_file };
+
+/// Why a value cannot be given so; empty: it can. rcl knows no objects, no
+/// lists in lists, of mixed types or without an item, and neither knows null;
+/// no argument of a program has a NUL.
+std::string ros_problem(const json& value, ros_reader reader);
+
+/// The same for all of an object. Pointers begin with `place`.
+std::vector<schema_error> ros_errors(const json& values, ros_reader reader,
+                                     const std::string& place);
+
+/// The text of a value without a problem, in the type that is declared: 2 for a
+/// number is "2.0". Where nothing is declared but a default, the form of that
+/// counts. Text for a launch file is in quotes if YAML would take it for
+/// something else.
+/// @param declared null: nothing is known of it.
+std::string ros_text(const json& value, const declared_parameter* declared,
+                     ros_reader reader);
 
 } // namespace roscell

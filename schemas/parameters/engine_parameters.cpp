@@ -1,6 +1,5 @@
-#include "schemas/parameters/engine_parameters.hpp"
+#include "schemas/parameters/declared_parameter.hpp"
 
-#include "schemas/closest_word.hpp"
 #include "schemas/text_excerpt.hpp"
 
 #include <string_view>

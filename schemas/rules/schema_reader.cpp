@@ -1,4 +1,4 @@
-#include "schemas/rules/schema_reader.hpp"
+#include "schemas/rules/schema_rule.hpp"
 
 #include "schemas/embedded_schemas.hpp"
 

@@ -1,15 +1,45 @@
 #pragma once
 
-#include "schemas/rules/text_pattern.hpp"
+#include "messages/codec/json_codec.hpp"
 
 #include <cstdint>
+#include <deque>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace roscell {
+
+/// A regular expression as our schemas use them: `^`, then characters, escapes
+/// and classes, each with an optional `*`, `+` or `{m,n}`, then `$`. Matching
+/// neither recurses nor backtracks; std::regex does both, so that a long string
+/// from outside can drive it out of its stack.
+class text_pattern {
+public:
+  /// Throws std::invalid_argument for an expression outside that subset.
+  explicit text_pattern(std::string_view expression);
+
+  bool matches(std::string_view utf8) const;
+
+private:
+  /// A class of characters and how often one of it may stand here.
+  struct part {
+    std::vector<std::pair<char32_t, char32_t>> ranges;
+    bool negated = false;
+    uint32_t at_least = 1;
+    uint32_t at_most = 1;
+
+    bool takes(char32_t c) const;
+  };
+
+  class parser;
+
+  std::vector<part> parts_;
+};
 
 /// The kinds of JSON values, as bits of a set.
 enum json_kind : uint8_t {
@@ -23,7 +53,7 @@ enum json_kind : uint8_t {
 };
 
 /// One (sub)schema, read into the form that the validator walks. Of Draft 7 it
-/// holds what our schemas use; schemas/rules/schema_reader.hpp refuses anything
+/// holds what our schemas use; schemas/rules/schema_rule.hpp refuses anything
 /// else. Rules point to each other where schemas have `$ref`.
 struct schema_rule {
   struct member {
@@ -67,5 +97,38 @@ struct schema_rule {
 /// What a rule asks for, as the object of "expected": `a string of at most 63
 /// characters`, `an integer from 0 to 7`, `one of "cpu", "gpu"`.
 std::string rule_text(const schema_rule& rule);
+
+/// Reads JSON Schema documents into rules, which it owns and which stay where
+/// they are. Not thread-safe.
+class schema_reader {
+public:
+  /// The rule of an embedded schema; read when it is first asked for, along
+  /// with the documents that it refers to. Throws std::logic_error for an
+  /// unknown name, or for a schema with a keyword that the rules cannot
+  /// express: both are defects of this program.
+  const schema_rule& rule(const std::string& name);
+
+  /// As `rule`, for a schema that is not embedded; tests use it.
+  const schema_rule& read(const std::string& name, const json& document);
+
+private:
+  /// A rule for a subschema of document `name`.
+  const schema_rule* part(const std::string& name, const json& schema);
+
+  void fill(schema_rule& rule, const std::string& name, const json& schema);
+  void fill_members(schema_rule& rule, const std::string& name,
+                    const json& schema);
+
+  std::deque<schema_rule> parts_;
+  std::map<std::string, schema_rule> slots_; ///< By "document#pointer".
+};
+
+struct schema_rule;
+
+/// Says of a member that a rule does not describe which one was probably meant,
+/// by its spelling or by its name in other systems, or else which there are:
+/// `there is no member "label" here; did you mean "labels"?`
+std::string unknown_member_text(const schema_rule& rule,
+                                const std::string& name);
 
 } // namespace roscell

@@ -1,4 +1,4 @@
-#include "schemas/rules/text_pattern.hpp"
+#include "schemas/rules/schema_rule.hpp"
 
 #include <algorithm>
 #include <cctype>

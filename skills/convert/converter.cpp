@@ -5,8 +5,7 @@
 #include "roscell/skill/errors.hpp"
 #include "roscell/skill/typed_ports.hpp"
 #include "skills/vision/brightness.hpp"
-#include "skills/vision/colours.hpp"
-#include "skills/vision/compression.hpp"
+#include "skills/vision/image_codec.hpp"
 
 #include <utility>
 

@@ -3,7 +3,7 @@
 #include "roscell/ros2/image_view.hpp"
 #include "roscell/skill/environment.hpp"
 #include "roscell/skill/executor.hpp"
-#include "skills/vision/accepted_encodings.hpp"
+#include "skills/vision/complaint.hpp"
 
 #include <cstdint>
 #include <string>

@@ -1,5 +1,4 @@
 #include "roscell/skill/parameters.hpp"
-
 #include "roscell/skill/errors.hpp"
 
 #include <nlohmann/json.hpp>
@@ -138,6 +137,16 @@ parameters::texts(const std::string& name,
 std::string parameters::json(const std::string& name) const {
   const auto* value = content_->find(name);
   return value != nullptr ? shown(*value) : "";
+}
+
+std::string current_error() {
+  try {
+    throw;
+  } catch (const std::exception& e) {
+    return e.what();
+  } catch (...) {
+    return "an exception that is no std::exception";
+  }
 }
 
 } // namespace roscell::engine

@@ -1,6 +1,6 @@
 #include "skills/engine/primitive_base_engine.hpp"
 
-#include "skills/engine/life/frame_text.hpp"
+#include "skills/engine/life/processing_times.hpp"
 
 #include <algorithm>
 #include <chrono>

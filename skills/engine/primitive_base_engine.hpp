@@ -3,11 +3,9 @@
 #include "roscell/skill/errors.hpp"
 #include "roscell/skill/registry.hpp"
 #include "skills/engine/frame_queue.hpp"
-#include "skills/engine/life/environment_watch.hpp"
 #include "skills/engine/life/heartbeat.hpp"
-#include "skills/engine/life/input_work.hpp"
-#include "skills/engine/life/liveness.hpp"
-#include "skills/engine/life/notify_socket.hpp"
+#include "skills/engine/life/processing_times.hpp"
+#include "skills/engine/life/signal_watch.hpp"
 #include "skills/engine/life/stream_meters.hpp"
 #include "skills/engine/output_ports.hpp"
 

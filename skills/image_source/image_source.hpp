@@ -5,8 +5,7 @@
 #include "roscell/skill/executor.hpp"
 #include "roscell/skill/handlers.hpp"
 #include "roscell/skill/typed_ports.hpp"
-#include "skills/vision/broken_files.hpp"
-#include "skills/vision/compression.hpp"
+#include "skills/vision/complaint.hpp"
 #include "skills/vision/image_codec.hpp"
 
 #include <cstddef>

@@ -7,11 +7,11 @@
 #include "roscell/ros2/stamp.hpp"
 #include "roscell/ros2/tf2_msgs.hpp"
 #include "roscell/skill/errors.hpp"
+#include "skills/pose_estimation/camera_source.hpp"
 #include "skills/pose_estimation/overlay.hpp"
-#include "skills/pose_estimation/step_streams.hpp"
+#include "skills/vision/brightness.hpp"
 #include "skills/vision/calibration.hpp"
-#include "skills/vision/colours.hpp"
-#include "skills/vision/compression.hpp"
+#include "skills/vision/image_codec.hpp"
 
 #include <algorithm>
 #include <utility>

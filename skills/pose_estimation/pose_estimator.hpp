@@ -7,8 +7,7 @@
 #include "skills/pose_estimation/camera_source.hpp"
 #include "skills/pose_estimation/frame_result.hpp"
 #include "skills/pose_estimation/tag_finder.hpp"
-#include "skills/vision/accepted_encodings.hpp"
-#include "skills/vision/broken_files.hpp"
+#include "skills/vision/complaint.hpp"
 #include "skills/vision/image_codec.hpp"
 #include "skills/vision/paired_executor.hpp"
 

@@ -4,6 +4,8 @@
 #include "skills/pose_estimation/tag_pose.hpp"
 #include "skills/vision/brightness.hpp"
 
+#include <apriltag/apriltag.h>
+
 #include <array>
 #include <memory>
 #include <string>
@@ -77,5 +79,11 @@ private:
   std::vector<std::uint8_t> copy_;
   std::unique_ptr<library> library_;
 };
+
+using tag_family =
+    std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)>;
+
+/// Throws start_error, with the names that are known, when `name` is not.
+tag_family make_tag_family(const std::string& name);
 
 } // namespace roscell::pose

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "skills/pose_estimation/camera_model.hpp"
-#include "skills/pose_estimation/pose_covariance.hpp"
 #include "skills/pose_estimation/rigid_fit.hpp"
 
 #include <Eigen/Geometry>

@@ -1,7 +1,10 @@
 #include "skills/ros2/participant.hpp"
 
+#include "roscell/ros2/cdr.hpp"
+#include "roscell/ros2/rmw_dds_common.hpp"
+#include "roscell/ros2/rmw_dds_common_iron.hpp"
 #include "roscell/skill/errors.hpp"
-#include "skills/ros2/names.hpp"
+#include "skills/ros2/participant_config.hpp"
 #include "skills/ros2/participant_qos.hpp"
 #include "skills/ros2/serialized_type.hpp"
 
@@ -230,6 +233,41 @@ void shared_participant::use(const engine::changed_variables& reported) {
 const char* shared_participant::look_up(const char* name) const {
   const auto i = reported_.find(name);
   return i != reported_.end() ? i->second.c_str() : lookup_(name);
+}
+
+namespace {
+
+template <class Gid>
+Gid to_gid(const guid& x) {
+  Gid result;
+  std::copy(x.begin(), x.end(), result.data.begin());
+  return result;
+}
+
+template <class Gid>
+auto to_gids(const std::vector<guid>& list) {
+  std::vector<Gid> result(list.size());
+  std::transform(list.begin(), list.end(), result.begin(), to_gid<Gid>);
+  return result;
+}
+
+template <class Message>
+std::string serialize_as(const graph_node& node) {
+  using gid = decltype(Message::gid);
+  Message message;
+  message.gid = to_gid<gid>(node.participant);
+  message.node_entities_info_seq = {
+      {"/", node.name, to_gids<gid>(node.readers), to_gids<gid>(node.writers)}};
+  return serialize(message);
+}
+
+} // namespace
+
+std::string serialize(const graph_node& node, std::size_t gid_bytes) {
+  using humble = rmw_dds_common::participant_entities_info;
+  using iron = rmw_dds_common_iron::participant_entities_info;
+  return gid_bytes == 16 ? serialize_as<iron>(node)
+                         : serialize_as<humble>(node);
 }
 
 } // namespace roscell::ros2

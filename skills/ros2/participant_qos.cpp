@@ -1,9 +1,7 @@
 #include "skills/ros2/participant_qos.hpp"
 
-#include "dds/free_port.hpp"
 #include "dds/host_transport.hpp"
-#include "dds/participant_ids.hpp"
-#include "dds/server_ids.hpp"
+#include "dds/server_addresses.hpp"
 #include "roscell/skill/errors.hpp"
 
 #include <fastdds/rtps/flowcontrol/FlowControllerDescriptor.hpp>
@@ -165,6 +163,31 @@ dds::DataWriterQos to_writer_qos(const topic_qos& qos) {
                                                           large_heartbeat_ns};
   }
   return result;
+}
+
+namespace dds = eprosima::fastdds::dds;
+
+std::string matched_text(const std::string& topic, const std::string& peer,
+                         int count, int change) {
+  return "'" + topic + "': a " + peer + (change < 0 ? " has left" : " has come")
+         + "; now " + std::to_string(count);
+}
+
+std::string incompatible_text(const std::string& topic, const std::string& peer,
+                              dds::QosPolicyId_t policy) {
+  auto start = "'" + topic + "': a " + peer + " is left out, because ";
+  switch (policy) {
+  case dds::RELIABILITY_QOS_POLICY_ID:
+    return start
+           + "one end wants what the other does not offer; set parameter "
+             "'ros2_reliability' to 'best_effort' where it is read";
+  case dds::DURABILITY_QOS_POLICY_ID:
+    return start
+           + "one end wants what the other does not offer; set parameter "
+             "'ros2_durability' to 'volatile' where it is read";
+  default:
+    return start + "the two differ in QoS policy " + std::to_string(policy);
+  }
 }
 
 } // namespace roscell::ros2

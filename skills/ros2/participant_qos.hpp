@@ -1,15 +1,16 @@
 #pragma once
 
 #include "skills/ros2/flow/pace.hpp"
-#include "skills/ros2/flow/paced_transport.hpp"
 #include "skills/ros2/participant_config.hpp"
 #include "skills/ros2/topic_qos.hpp"
 
+#include <fastdds/dds/core/policy/QosPolicies.hpp>
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
 
 #include <memory>
+#include <string>
 
 /// INTERNAL to this folder: our settings in the words of Fast DDS.
 namespace roscell::ros2 {
@@ -25,5 +26,16 @@ eprosima::fastdds::dds::DomainParticipantQos to_participant_qos(
 eprosima::fastdds::dds::DataReaderQos to_reader_qos(const topic_qos& qos);
 
 eprosima::fastdds::dds::DataWriterQos to_writer_qos(const topic_qos& qos);
+
+// INTERNAL to this folder: what an instance's log says of its topics.
+
+/// "'/scene_1/image': a writer has come, there is 1 now". `change` may be
+/// negative.
+std::string matched_text(const std::string& topic, const std::string& peer,
+                         int count, int change);
+
+/// Which parameter makes the two ends agree.
+std::string incompatible_text(const std::string& topic, const std::string& peer,
+                              eprosima::fastdds::dds::QosPolicyId_t policy);
 
 } // namespace roscell::ros2

@@ -1,8 +1,8 @@
 #include "skills/ros2/topic_input.hpp"
 
 #include "roscell/ros2/stamp.hpp"
-#include "skills/ros2/names.hpp"
-#include "skills/ros2/status_text.hpp"
+#include "skills/ros2/participant_config.hpp"
+#include "skills/ros2/participant_qos.hpp"
 
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 
@@ -134,6 +134,30 @@ void topic_input::count_lost(std::uint64_t more) {
     context_.say("input '" + context_.config.endpoint + "' has lost "
                  + std::to_string(lost_)
                  + " messages on the way; see skills/README.md, large images");
+}
+
+namespace {
+
+/// Writers come and go for as long as a skill runs.
+constexpr std::size_t max_writers = 1024;
+
+} // namespace
+
+std::uint64_t gap_counter::add(const guid& writer, std::uint64_t number) {
+  auto known = last_.find(writer);
+  if (known == last_.end()) {
+    if (last_.size() >= max_writers)
+      last_.clear();
+    last_.emplace(writer, number);
+    return 0;
+  }
+  auto last = std::exchange(known->second, std::max(known->second, number));
+  return number > last ? number - last - 1 : 0;
+}
+
+std::uint64_t gap_counter::last(const guid& writer) const {
+  const auto known = last_.find(writer);
+  return known == last_.end() ? 0 : known->second;
 }
 
 } // namespace roscell::ros2

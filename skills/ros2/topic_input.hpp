@@ -1,15 +1,31 @@
 #pragma once
 
 #include "roscell/skill/handlers.hpp"
-#include "skills/ros2/flow/gap_counter.hpp"
 #include "skills/ros2/participant.hpp"
 
+#include <cstdint>
 #include <deque>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
 
 namespace roscell::ros2 {
+
+/// Counts the messages that a reader never saw, by the numbers that every DDS
+/// writer gives its messages.
+class gap_counter {
+public:
+  /// Message `number` of `writer` was read. Returns how many of the same writer
+  /// are missing before it; none before the first.
+  std::uint64_t add(const guid& writer, std::uint64_t number);
+
+  /// The highest number of that writer's messages that were read; 0: none was.
+  std::uint64_t last(const guid& writer) const;
+
+private:
+  std::map<guid, std::uint64_t> last_;
+};
 
 /// Reads a topic. Each message is one frame, pushed by the thread of Fast DDS
 /// that received it; when the executor is behind, the oldest frame is dropped.

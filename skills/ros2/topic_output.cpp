@@ -1,7 +1,7 @@
 #include "skills/ros2/topic_output.hpp"
 
 #include "roscell/skill/errors.hpp"
-#include "skills/ros2/status_text.hpp"
+#include "skills/ros2/participant_qos.hpp"
 
 #include <utility>
 

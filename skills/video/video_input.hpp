@@ -1,7 +1,7 @@
 #pragma once
 
 #include "roscell/skill/handlers.hpp"
-#include "skills/video/picture_reader.hpp"
+#include "skills/video/video_protocol.hpp"
 
 #include <cstdint>
 #include <memory>

@@ -2,7 +2,7 @@
 
 #include "roscell/skill/errors.hpp"
 #include "skills/vision/levels.hpp"
-#include "skills/vision/pixel_numbers.hpp"
+#include "skills/vision/raw_pixels.hpp"
 
 namespace roscell::vision {
 

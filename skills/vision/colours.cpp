@@ -1,10 +1,8 @@
-#include "skills/vision/colours.hpp"
+#include "skills/vision/brightness.hpp"
 
 #include "roscell/skill/errors.hpp"
-#include "skills/vision/brightness.hpp"
-#include "skills/vision/demosaic.hpp"
 #include "skills/vision/levels.hpp"
-#include "skills/vision/yuv_pixels.hpp"
+#include "skills/vision/raw_pixels.hpp"
 
 #include <cstring>
 

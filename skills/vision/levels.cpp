@@ -1,6 +1,6 @@
 #include "skills/vision/levels.hpp"
 
-#include "skills/vision/pixel_numbers.hpp"
+#include "skills/vision/raw_pixels.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "embedding/skills/frame_hub.hpp"
+#include "embedding/skills/frame_inbox.hpp"
 
 #include <catch2/catch.hpp>
 

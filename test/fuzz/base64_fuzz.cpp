@@ -1,4 +1,4 @@
-#include "schemas/base64.hpp"
+#include "schemas/utf8.hpp"
 
 #include <cstdint>
 #include <cstdlib>

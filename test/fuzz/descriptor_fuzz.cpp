@@ -1,5 +1,5 @@
 // Arbitrary bytes as a skill descriptor.
-#include "messages/skill_descriptor.hpp"
+#include "messages/skill.hpp"
 #include "test/fuzz/fuzz_support.hpp"
 
 using namespace roscell;

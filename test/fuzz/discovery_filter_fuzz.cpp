@@ -1,5 +1,5 @@
 #include "actors/edge/dds/lives/discovery_guard.hpp"
-#include "actors/edge/dds/rtps/discovery_filter.hpp"
+#include "actors/edge/dds/rtps/discovery_wire.hpp"
 #include "actors/edge/dds/rtps/participant_news.hpp"
 
 #include <cstdint>

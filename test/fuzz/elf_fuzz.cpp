@@ -1,5 +1,5 @@
 // Arbitrary bytes as the beginning of a program.
-#include "actors/edge/program/elf_properties.hpp"
+#include "actors/edge/process/elf_properties.hpp"
 
 #include <cstdint>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 #include "actors/edge/engine/engine_log.hpp"
-#include "actors/edge/io/line_splitter.hpp"
-#include "actors/edge/process/limits.hpp"
+#include "actors/edge/io/plain_text.hpp"
+#include "actors/edge/limits.hpp"
 #include "schemas/utf8.hpp"
 
 #include <algorithm>

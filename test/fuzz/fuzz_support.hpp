@@ -2,7 +2,6 @@
 
 #include "messages/codec/json_codec.hpp"
 #include "messages/failure.hpp"
-#include "schemas/decode.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
 

@@ -1,4 +1,4 @@
-#include "actors/edge/reach/reach_packet.hpp"
+#include "actors/edge/reach/reach_port.hpp"
 #include "actors/edge/session/heartbeat_packet.hpp"
 
 #include <cstdlib>

@@ -3,7 +3,7 @@
 #include "roscell/ros2/tf2_msgs.hpp"
 #include "roscell/skill/errors.hpp"
 #include "skills/pose_estimation/pose_estimator.hpp"
-#include "skills/vision/colours.hpp"
+#include "skills/vision/brightness.hpp"
 
 #include <algorithm>
 #include <cstdint>

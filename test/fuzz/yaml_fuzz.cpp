@@ -1,6 +1,6 @@
 // Arbitrary bytes as YAML: what is taken is a document that JSON can carry, and
 // that means the same when its JSON is read as YAML.
-#include "schemas/document_place.hpp"
+#include "schemas/document.hpp"
 #include "test/fuzz/fuzz_support.hpp"
 
 using namespace roscell;

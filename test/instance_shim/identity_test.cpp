@@ -1,4 +1,4 @@
-#include "actors/edge/process/pidfd.hpp"
+#include "actors/edge/process/process_identity.hpp"
 #include "test/instance_shim/shim_run.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "messages/codec/enum_words.hpp"
 #include "messages/codec/json_codec.hpp"
 
 #include <map>

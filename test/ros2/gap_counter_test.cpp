@@ -1,4 +1,4 @@
-#include "skills/ros2/flow/gap_counter.hpp"
+#include "skills/ros2/topic_input.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,11 +1,10 @@
-#include "skills/ros2/graph.hpp"
+#include "skills/ros2/participant.hpp"
 
 #include "cell_fixture.hpp"
 
 #include "roscell/ros2/cdr.hpp"
 #include "roscell/ros2/rmw_dds_common.hpp"
 #include "roscell/ros2/std_msgs.hpp"
-#include "skills/ros2/participant.hpp"
 #include "skills/ros2/participant_qos.hpp"
 #include "skills/ros2/serialized_type.hpp"
 

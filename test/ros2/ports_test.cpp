@@ -1,6 +1,6 @@
 #include "cell_fixture.hpp"
 
-#include "dds/free_port.hpp"
+#include "dds/server_addresses.hpp"
 #include "roscell/ros2.hpp"
 #include "roscell/ros2/cdr.hpp"
 #include "roscell/ros2/std_msgs.hpp"

@@ -1,6 +1,6 @@
 #include "cell_fixture.hpp"
 
-#include "actors/edge/process/environment_file.hpp"
+#include "actors/edge/process/notify_socket.hpp"
 #include "roscell/ros2.hpp"
 #include "roscell/ros2/cdr.hpp"
 #include "roscell/ros2/image_view.hpp"

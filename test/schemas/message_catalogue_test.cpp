@@ -1,6 +1,6 @@
 #include "schemas/message_catalogue.hpp"
 
-#include "messages/codec/enum_words.hpp"
+#include "messages/codec/json_codec.hpp"
 #include "test/schemas/examples.hpp"
 
 #include <catch2/catch.hpp>

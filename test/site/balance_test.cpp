@@ -1,4 +1,4 @@
-#include "actors/cell/cell_balance.hpp"
+#include "actors/cell/cell_slots.hpp"
 #include "test/site/watch/site_watch.hpp"
 
 #include <algorithm>

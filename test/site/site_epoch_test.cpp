@@ -1,5 +1,5 @@
-#include "actors/edge/session/registration_proof.hpp"
-#include "actors/session/registration/registration_order.hpp"
+#include "actors/edge/session/proofs.hpp"
+#include "actors/session/registration_client.hpp"
 #include "messages/failure.hpp"
 #include "test/site/watch/site_watch.hpp"
 

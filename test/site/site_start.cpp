@@ -2,7 +2,7 @@
 
 #include "actors/instances/container_supervisor.hpp"
 #include "actors/node/node_agent.hpp"
-#include "actors/requests/handlers/registry.hpp"
+#include "actors/requests/handler_pipeline.hpp"
 #include "actors/requests/request_router.hpp"
 #include "test/actors/fakes/planner.hpp"
 #include "test/site/site_skills.hpp"

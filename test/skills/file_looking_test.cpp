@@ -1,5 +1,5 @@
 #include "skills/engine/file/file_protocol.hpp"
-#include "skills/engine/file/inotify_watch.hpp"
+#include "skills/engine/file/file_reading.hpp"
 
 #include "test/skills/support.hpp"
 

@@ -1,6 +1,6 @@
 #include "roscell/skill/errors.hpp"
+#include "skills/engine/file/file_output.hpp"
 #include "skills/engine/file/file_protocol.hpp"
-#include "skills/engine/file/folder_output.hpp"
 
 #include "test/skills/support.hpp"
 

@@ -1,7 +1,6 @@
 #include "messages/instance.hpp"
-#include "skills/engine/file/line_splitter.hpp"
-#include "skills/engine/life/frame_text.hpp"
-#include "skills/engine/life/liveness.hpp"
+#include "skills/engine/file/line_input.hpp"
+#include "skills/engine/life/heartbeat.hpp"
 #include "skills/engine/life/processing_times.hpp"
 
 #include <catch2/catch.hpp>

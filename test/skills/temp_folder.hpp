@@ -1,6 +1,6 @@
 #pragma once
 
-#include "skills/engine/file/inotify_watch.hpp"
+#include "skills/engine/file/file_reading.hpp"
 
 #include <poll.h>
 #include <sys/inotify.h>

@@ -1,7 +1,6 @@
 #include "tools/roscell/daemon/config_file.hpp"
 
 #include "tools/roscell/commands.hpp"
-#include "tools/roscell/daemon/config_template.hpp"
 #include "tools/roscell/exit_code.hpp"
 
 #include <CLI/CLI.hpp>

@@ -3,7 +3,7 @@
 #include "test/words.hpp"
 #include "tools/roscell/client/find_things.hpp"
 #include "tools/roscell/exit_code.hpp"
-#include "tools/roscell/view/describe/parts.hpp"
+#include "tools/roscell/view/describe/page.hpp"
 
 #include <catch2/catch.hpp>
 

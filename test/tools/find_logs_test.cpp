@@ -1,7 +1,7 @@
 #include "tools/roscell/client/find_things.hpp"
 
 #include "tools/roscell/exit_code.hpp"
-#include "tools/roscell/view/kept_logs_view.hpp"
+#include "tools/roscell/view/log_lines.hpp"
 
 #include <catch2/catch.hpp>
 

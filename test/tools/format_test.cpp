@@ -1,6 +1,6 @@
 #include "tools/roscell/view/format.hpp"
 
-#include "actors/edge/io/time_text.hpp"
+#include "actors/edge/io/node_time.hpp"
 
 #include <catch2/catch.hpp>
 

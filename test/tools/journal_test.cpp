@@ -1,6 +1,6 @@
 #include "tools/roscell/daemon/journal.hpp"
 
-#include "actors/node/event_loudness.hpp"
+#include "actors/node/event_series.hpp"
 
 #include <catch2/catch.hpp>
 

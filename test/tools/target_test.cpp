@@ -1,6 +1,5 @@
 #include "tools/roscell/client/target.hpp"
 
-#include "tools/roscell/client/open_secret.hpp"
 #include "tools/roscell/exit_code.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,6 @@
 #include "skills/vision/brightness.hpp"
 
 #include "roscell/skill/errors.hpp"
-#include "skills/vision/colours.hpp"
 
 #include <catch2/catch.hpp>
 #include <opencv2/imgproc.hpp>

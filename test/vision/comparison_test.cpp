@@ -1,4 +1,4 @@
-#include "tools/compare_poses/reading.hpp"
+#include "tools/compare_poses/comparison.hpp"
 #include "tools/compare_poses/table.hpp"
 
 #include "test/skills/temp_folder.hpp"

@@ -5,7 +5,6 @@
 #include "skills/pose_estimation/pose_estimator.hpp"
 #include "skills/rectify/rectifier.hpp"
 #include "skills/vision/brightness.hpp"
-#include "skills/vision/colours.hpp"
 
 #include "test/vision/fixture.hpp"
 

@@ -1,5 +1,5 @@
 #include "skills/pose_estimation/pose_estimator.hpp"
-#include "skills/pose_estimation/tag_family.hpp"
+#include "skills/pose_estimation/tag_detector.hpp"
 #include "tools/render_scenes/picture.hpp"
 
 #include "test/vision/fixture.hpp"

@@ -7,7 +7,7 @@
 #include "roscell/skill/executor.hpp"
 #include "roscell/skill/handlers.hpp"
 #include "skills/vision/image_codec.hpp"
-#include "tools/render_scenes/placement.hpp"
+#include "tools/render_scenes/scene.hpp"
 
 #include "test/parameters_of.hpp"
 #include "test/places.hpp"

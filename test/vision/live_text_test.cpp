@@ -1,3 +1,4 @@
+#include "test/skills/temp_folder.hpp"
 #include "tools/compare_poses/live_text.hpp"
 
 #include <catch2/catch.hpp>
@@ -30,4 +31,22 @@ TEST_CASE("a live text never goes up further than its screen is high") {
   live_text text;
   text.repainted("1\n2\n3\n4\n5\n", {80, 10});
   CHECK(text.repainted("1\n", {80, 4}).substr(0, 4) == "\x1b[3A");
+}
+using roscell::comparison::file_watch;
+using namespace roscell::test;
+
+TEST_CASE("a watch tells that a file appears and grows, once each time") {
+  temp_folder folder;
+  file_watch watch{{folder / "lines"}};
+  auto now = file_watch::clock::now();
+  CHECK_FALSE(watch.wait_until(now));
+  folder.write("lines", "one\n");
+  CHECK(watch.wait_until(now + patience));
+  CHECK_FALSE(watch.wait_until(now));
+  folder.append("lines", "two\n");
+  CHECK(watch.wait_until(now + patience));
+}
+
+TEST_CASE("a folder that is not there cannot be watched") {
+  CHECK_THROWS_AS(file_watch({"/nowhere/lines"}), std::runtime_error);
 }

@@ -1,6 +1,6 @@
 #include "roscell/skill/errors.hpp"
 #include "skills/pose_estimation/pose_estimator.hpp"
-#include "skills/vision/compression.hpp"
+#include "skills/vision/image_codec.hpp"
 
 #include "test/vision/fixture.hpp"
 

@@ -1,4 +1,4 @@
-#include "skills/vision/stamped_calibrations.hpp"
+#include "skills/vision/paired_executor.hpp"
 
 #include "skills/pose_estimation/pose_estimator.hpp"
 #include "skills/rectify/rectifier.hpp"

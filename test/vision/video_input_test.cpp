@@ -1,6 +1,6 @@
 #include "roscell/skill/errors.hpp"
-#include "skills/video/capture.hpp"
 #include "skills/video/video_input.hpp"
+#include "skills/video/video_protocol.hpp"
 
 #include "test/vision/fixture.hpp"
 

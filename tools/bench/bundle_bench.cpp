@@ -1,7 +1,7 @@
 #include "skills/pose_estimation/bundle_pose.hpp"
 #include "skills/pose_estimation/tag_pose.hpp"
-#include "tools/render_scenes/camera.hpp"
 #include "tools/render_scenes/picture.hpp"
+#include "tools/render_scenes/scene.hpp"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

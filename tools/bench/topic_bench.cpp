@@ -1,6 +1,6 @@
 #include "actors/edge/dds/discovery_server.hpp"
 #include "actors/edge/dds/discovery_setup.hpp"
-#include "dds/server_ids.hpp"
+#include "dds/server_addresses.hpp"
 #include "roscell/ros2.hpp"
 #include "roscell/skill/registry.hpp"
 #include "roscell/skill/stop_event.hpp"

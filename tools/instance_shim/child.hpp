@@ -8,6 +8,20 @@
 
 namespace roscell::shim {
 
+/// Has the kernel look for others first when memory is short: without the shim
+/// nobody keeps the fence. As far as the shim may.
+void be_the_last_to_go();
+
+/// Makes the calling process an ordinary one among those of the host, whatever
+/// it has from the node but its processors: its scheduling, nice value, place
+/// in the queues of disks, umask, core dumps, what it may raise of these, and
+/// the capabilities that it would hand on. It is more easily ended for memory
+/// than the shim.
+void become_ordinary();
+
+/// Then the scheduling that it is to have. False with errno set.
+bool take_scheduling(const scheduling& request);
+
 /// Starts the command in a process group of its own and in its cgroup, with the
 /// attributes of an ordinary program. It dies with the shim,
 /// reads from /dev/null, and writes to `output`, or where the shim does if that
@@ -31,5 +45,22 @@ void kill_all(const cgroup_list& cgroups);
 /// group or another cgroup. Waits at most a moment for their end; `signals` is
 /// the shim's descriptor for SIGCHLD.
 void kill_leftovers(const cgroup_list& cgroups, int signals);
+
+// The processes that a process has started, and those that these have.
+
+using visitor = void (*)(pid_t process, void* context);
+
+/// Calls it for each descendant, the deepest first: the children of one that
+/// has ended have another parent. Returns whether there were any, those that
+/// have ended and are not reaped included.
+bool visit_descendants(pid_t process, visitor visit, void* context);
+
+/// Whether a process does something else with a signal than to end of it, or
+/// to ignore it: it catches it, or takes it from where blocked ones wait.
+bool takes_signal(pid_t process, int number);
+
+/// Whether a signal does nothing to it, as SIGINT to what a shell has started
+/// in its background.
+bool ignores_signal(pid_t process, int number);
 
 } // namespace roscell::shim

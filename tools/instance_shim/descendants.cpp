@@ -1,4 +1,4 @@
-#include "tools/instance_shim/descendants.hpp"
+#include "tools/instance_shim/child.hpp"
 
 #include <dirent.h>
 #include <fcntl.h>

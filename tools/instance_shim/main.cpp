@@ -31,7 +31,6 @@
 #include "tools/instance_shim/child.hpp"
 #include "tools/instance_shim/log_files.hpp"
 #include "tools/instance_shim/options.hpp"
-#include "tools/instance_shim/process_attributes.hpp"
 #include "tools/instance_shim/records.hpp"
 #include "tools/instance_shim/supervision.hpp"
 

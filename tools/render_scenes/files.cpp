@@ -1,7 +1,7 @@
 #include "tools/render_scenes/files.hpp"
 
 #include "tools/render_scenes/picture.hpp"
-#include "tools/render_scenes/placement.hpp"
+#include "tools/render_scenes/scene.hpp"
 
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>

@@ -1,7 +1,6 @@
 #include "tools/render_scenes/picture.hpp"
 
-#include "tools/render_scenes/camera.hpp"
-#include "tools/render_scenes/placement.hpp"
+#include "tools/render_scenes/scene.hpp"
 
 #include <apriltag/apriltag.h>
 #include <apriltag/tag16h5.h>

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,5 +36,40 @@ struct placed_tag {
   Eigen::Vector3d position; ///< Of its middle, metres.
   Eigen::Quaterniond orientation;
 };
+
+/// A camera with plumb_bob distortion. The middle of the upper left pixel is
+/// (0, 0).
+class camera {
+public:
+  explicit camera(const scene_options& options);
+
+  Eigen::Vector2d pixel_of(const Eigen::Vector3d& point) const;
+
+  /// A vector with z = 1 along which this pixel looks.
+  Eigen::Vector3d ray_of(const Eigen::Vector2d& pixel) const;
+
+  const Eigen::Vector2d& centre() const noexcept {
+    return centre_;
+  }
+
+private:
+  Eigen::Vector2d bent(const Eigen::Vector2d& straight) const;
+
+  const double focal_px_;
+  const Eigen::Vector2d centre_;
+  const std::array<double, 5> distortion_;
+  const bool distorted_;
+};
+
+/// The corners in pixels of a square of `size_m` around the middle of a tag:
+/// bottom left, bottom right, top right, top left.
+std::array<Eigen::Vector2d, 4> corners_of(const placed_tag& tag, double size_m,
+                                          const camera& eye);
+
+/// Random poses, the same for the same seed: tags 0, 1, ... in view with their
+/// white margin of `margin` times the tag's size, none in front of another.
+/// Where there are many, they begin farther away than `nearest_m`. Throws
+/// std::runtime_error when so many do not fit.
+std::vector<placed_tag> place_tags(const scene_options& options, double margin);
 
 } // namespace roscell::scenes

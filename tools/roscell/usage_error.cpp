@@ -1,6 +1,6 @@
 #include "tools/roscell/usage_error.hpp"
 
-#include "schemas/closest_word.hpp"
+#include "schemas/text_excerpt.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -1,10 +1,9 @@
 #include "actors/cell/moves/abandoned_steps.hpp"
 
-#include "actors/cell/moves/move_end.hpp"
-#include "actors/cell/moves/move_run.hpp"
+#include "actors/cell/moves/moved_steps.hpp"
+#include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/may_start.hpp"
-#include "actors/cell/state/task_story.hpp"
 #include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "messages/event_kinds.hpp"

@@ -1,10 +1,8 @@
-#include "actors/cell/moves/move_run.hpp"
+#include "actors/cell/moves/moved_steps.hpp"
 
-#include "actors/cell/moves/move_end.hpp"
-#include "actors/cell/moves/move_placement.hpp"
 #include "actors/cell/state/may_start.hpp"
-#include "actors/cell/tasks/ordered_stops.hpp"
 #include "actors/cell/tasks/placement_locks.hpp"
+#include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "messages/failure.hpp"

@@ -1,10 +1,20 @@
 #include "actors/cell/moves/moved_steps.hpp"
 
+#include "actors/cell/state/coordinator_store.hpp"
+#include "actors/cell/state/coordinator_timer.hpp"
+#include "actors/cell/state/may_start.hpp"
+#include "actors/cell/tasks/placement_locks.hpp"
+#include "actors/cell/tasks/step_ends.hpp"
+#include "actors/cell/tasks/task_changes.hpp"
+#include "actors/cell/tasks/task_removals.hpp"
+#include "actors/core/limits.hpp"
 #include "actors/placement/reading/wiring.hpp"
 #include "actors/placement/skill_resolution.hpp"
-#include "schemas/decode.hpp"
+#include "messages/event_kinds.hpp"
+#include "schemas/document.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 #include <variant>
 
@@ -136,6 +146,144 @@ void keep_together(task_move& move) {
     }
     groups += members.size();
   }
+}
+
+namespace {
+
+void publish_moved(coordinator_pointer self, const moved_step& x) {
+  const auto& event = x.from != x.change.place.node
+                          ? events::instance_moved
+                          : events::instance_restarted;
+  publish_task_event(self, event, x.task, x.change.spec.instance,
+                     {{"task", x.task},
+                      {"from", x.from},
+                      {"to", x.change.place.node},
+                      {"replaces", x.change.old_instance},
+                      {"step", x.change.spec.step}});
+}
+
+/// A task's state is that of the instances it still has.
+void forget_new(coordinator_pointer self, const std::string& task,
+                const std::vector<std::string>& added) {
+  if (!self->state.deployments.find(added.front()))
+    return;
+  pending_change change;
+  change.still = &task_table::is_kept;
+  change.insistent = true;
+  change.make = [added](task_record record) {
+    return without(std::move(record), added);
+  };
+  change.done = [self, task](const completion&) { record_ends(self, task); };
+  change_task(self, task, std::move(change));
+}
+
+/// It has come to nothing: it is placed once more, elsewhere if need be, once
+/// it has surely ended there.
+void abandon_again(coordinator_pointer self, const moved_step& x) {
+  const auto& node = x.change.place.node;
+  const auto* entry = self->state.registry.find_name(node);
+  abandoned_step again;
+  again.task = x.task;
+  again.step = x.change.spec.step;
+  again.instance = x.change.spec.instance;
+  again.node = node;
+  again.uuid = entry ? entry->row.identity.uuid : std::string{};
+  again.due = self->clock().now() + limits::retry::longest;
+  self->state.failures.abandon(std::move(again));
+  set_timer(self);
+}
+
+/// The old instance of a step that does not move.
+void keep_old(coordinator_pointer self, const task_move& move,
+              const moved_step& x) {
+  const auto& old = x.change.old_instance;
+  if (!x.was_asked)
+    self->state.deployments.heed_end(old);
+  else
+    end_as_ordered(self, x.task, old,
+                   "it was ended to run elsewhere: " + move.problem->message);
+}
+
+} // namespace
+
+void end_move(coordinator_pointer self, const move_ptr& move) {
+  release_placement_lock(self, std::exchange(move->placement_lock, 0));
+  self->state.moves.end(move->id);
+  move->done(move->problem);
+}
+
+void fail_move(coordinator_pointer self, const move_ptr& move,
+               const failure& why) {
+  add_problem(move, why);
+  end_move(self, move);
+}
+
+void complete_steps(coordinator_pointer self, const move_ptr& move,
+                    const std::vector<size_t>& steps, move_stage_handler next) {
+  auto& st = self->state;
+  move->open = steps.size() + 1;
+  for (const auto i : steps) {
+    const auto& x = move->steps[i];
+    const auto& added = x.change.spec.instance;
+    const auto* placed = st.deployments.find(added);
+    const bool moved = placed && !placed->tentative;
+    st.moves.enter(move->id, i, moved ? move_stage::moved : move_stage::over,
+                   self->clock().now());
+    if (moved)
+      publish_moved(self, x);
+    record_ends(self, x.task);
+    remove_instance(self,
+                    moved
+                        ? overdue_removal{x.from, x.task, x.change.old_instance}
+                        : overdue_removal{x.change.place.node, x.task, added},
+                    [self, move, next] { end_part(self, move, next, next); });
+  }
+  end_part(self, move, next, next);
+}
+
+void drop_new(coordinator_pointer self, const move_ptr& move,
+              const std::vector<size_t>& steps) {
+  std::map<std::string, std::vector<std::string>> added;
+  for (const auto i : steps) {
+    const auto& x = move->steps[i];
+    const auto& instance = x.change.spec.instance;
+    added[x.task].push_back(instance);
+    remove_instance(self, {x.change.place.node, x.task, instance}, [] {});
+  }
+  for (const auto& [task, instances] : added)
+    forget_new(self, task, instances);
+}
+
+void undo_move(coordinator_pointer self, const move_ptr& move) {
+  auto& st = self->state;
+  std::vector<size_t> left;
+  for (size_t i = 0; i < move->steps.size(); ++i)
+    // Before it has room it is in no table.
+    if (move->id == 0
+        || st.moves.enter(move->id, i, move_stage::undone, self->clock().now()))
+      left.push_back(i);
+  drop_new(self, move, left);
+  for (const auto i : left)
+    keep_old(self, *move, move->steps[i]);
+  end_move(self, move);
+}
+
+void complete_lost(coordinator_pointer self, const move_ptr& move) {
+  auto& st = self->state;
+  for (size_t i = 0; i < move->steps.size(); ++i) {
+    const auto& x = move->steps[i];
+    st.failures.forget(x.change.old_instance);
+    if (st.moves.is_at(move->id, i, move_stage::up)) {
+      st.deployments.heed_end(x.change.spec.instance);
+      publish_moved(self, x);
+    } else if (st.tasks.is_running(x.task)
+               && st.deployments.find(x.change.spec.instance)) {
+      abandon_again(self, x);
+    }
+  }
+  for (const auto& x : move->steps)
+    record_ends(self, x.task);
+  end_move(self, move);
 }
 
 } // namespace roscell

@@ -88,4 +88,51 @@ void bind_together(const std::string& task, std::vector<resolved_step>& steps);
 /// The same for all steps of a move, whose tasks have numbers of their own.
 void keep_together(task_move& move);
 
+// How moves end, as a whole or step by step.
+
+/// All of it is done, or needs nothing any more.
+void end_move(coordinator_pointer self, const move_ptr& move);
+
+void fail_move(coordinator_pointer self, const move_ptr& move,
+               const failure& why);
+
+/// These steps run anew, and that is on disk: where a new one has taken the old
+/// one's place the old one goes, else the new one: its task was terminated, or
+/// the old one has done its work. Then comes `next`.
+///
+/// In between anything may end, be terminated or lost: what is to go and cannot
+/// be told so is told when it registers.
+void complete_steps(coordinator_pointer self, const move_ptr& move,
+                    const std::vector<size_t>& steps, move_stage_handler next);
+
+/// The new ones of these steps are not wanted: they go, and their records.
+void drop_new(coordinator_pointer self, const move_ptr& move,
+              const std::vector<size_t>& steps);
+
+/// The move has a problem: what of it has not moved yet stays where it was. A
+/// step whose old instance has ended for it has failed by that; one that is
+/// still to end is started anew when it has.
+void undo_move(coordinator_pointer self, const move_ptr& move);
+
+/// A move of lost steps: the new ones are in the tables, whatever becomes of
+/// them. What has not come up is placed once more.
+void complete_lost(coordinator_pointer self, const move_ptr& move);
+
+// Where what moves goes.
+
+/// Finds places for the steps, and has the members keep room. Then comes
+/// `next`, while the placement lock is held; or the move has failed.
+///
+/// In between tasks are terminated, steps end, and nodes leave: what needs no
+/// place any more is left out when the places are known.
+void place_move(coordinator_pointer self, const move_ptr& move,
+                move_stage_handler next);
+
+// INTERNAL to moves and restarts: one move from the search for places to its
+// end, as the move table says.
+
+/// The move has the placement lock, and its steps. `done` is called once, with
+/// the first problem or null; each stage ends, at the latest with its deadline.
+void run_move(coordinator_pointer self, const move_ptr& move);
+
 } // namespace roscell

@@ -1,10 +1,9 @@
-#include "actors/cell/moves/rebalancing.hpp"
+#include "actors/cell/moves/task_move.hpp"
 
 #include "actors/cell/limits.hpp"
 #include "actors/cell/moves/moved_steps.hpp"
-#include "actors/cell/moves/task_move.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
-#include "actors/cell/tasks/cell_resources.hpp"
+#include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/placement/limits.hpp"
 #include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"

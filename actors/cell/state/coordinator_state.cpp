@@ -1,6 +1,6 @@
 #include "actors/cell/state/coordinator_state.hpp"
 
-#include "actors/core/wall_clock.hpp"
+#include "actors/core/clocks.hpp"
 
 namespace roscell {
 

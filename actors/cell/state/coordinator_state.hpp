@@ -1,11 +1,9 @@
 #pragma once
 
 #include "actors/cell/moves/move_table.hpp"
-#include "actors/cell/moves/rebalance_table.hpp"
 #include "actors/cell/streams/stream_watch.hpp"
 #include "actors/cell/tables/cell_registry.hpp"
 #include "actors/cell/tables/deployment_table.hpp"
-#include "actors/cell/tables/drain_table.hpp"
 #include "actors/cell/tables/history_table.hpp"
 #include "actors/cell/tables/node_failures.hpp"
 #include "actors/cell/tables/ordered_ends.hpp"
@@ -18,7 +16,7 @@
 #include "actors/core/actor_context.hpp"
 #include "actors/core/alarm.hpp"
 #include "actors/edge/dds/ros_graph.hpp"
-#include "actors/placement/search_guard.hpp"
+#include "actors/placement/searcher.hpp"
 #include "messages/messages.hpp"
 
 #include <caf/typed_response_promise.hpp>

@@ -1,6 +1,6 @@
 #include "actors/cell/streams/cell_streams.hpp"
 
-#include "actors/cell/state/task_story.hpp"
+#include "actors/cell/state/coordinator_store.hpp"
 #include "actors/core/limits.hpp"
 #include "messages/event_kinds.hpp"
 #include "schemas/utf8.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "messages/inside/measures.hpp"
+#include "messages/inside/coordination.hpp"
 #include "messages/instance.hpp"
 #include "messages/session.hpp"
 

@@ -1,7 +1,7 @@
 #include "actors/cell/tables/peer_table.hpp"
 
 #include "actors/cell/limits.hpp"
-#include "dds/server_ids.hpp"
+#include "dds/server_addresses.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -2,7 +2,7 @@
 
 #include "actors/cell/limits.hpp"
 #include "messages/codec/instantiate.hpp"
-#include "schemas/decode.hpp"
+#include "schemas/document.hpp"
 
 #include <algorithm>
 #include <utility>

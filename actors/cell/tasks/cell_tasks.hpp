@@ -2,6 +2,10 @@
 
 #include "actors/cell/state/coordinator_state.hpp"
 
+#include <functional>
+#include <string>
+#include <vector>
+
 /// What the CELL COORDINATOR does about tasks that are deployed: the intent,
 /// and the word that all steps run. How they are claimed is in task_claims.hpp,
 /// how they end in task_endings.hpp.
@@ -23,5 +27,61 @@ caf::result<task_rolled_back> undo_deployment(coordinator_pointer self,
 
 /// A pipeline has ended: what it was deploying is rolled back.
 void on_pipeline_down(coordinator_pointer self, const caf::actor_addr& gone);
+
+// How the CELL COORDINATOR answers who wants a task to run: it takes the
+// placement lock, or hears how the task stands. The table is in
+// docs/protocols.md, "A task".
+
+/// Errors: task_exists (another body), conflict (it is being terminated, too
+/// many wait, or something of its name may still run), and those of healing.
+caf::result<task_claimed> claim_placement_lock(coordinator_pointer self,
+                                               const claim_task& request);
+
+/// How a task stands that is known.
+task_claimed known_reply(const cell_coordinator_state& st,
+                         const std::string& task);
+
+// How the CELL COORDINATOR preempts for a task of higher priority: what goes
+// is ended, once it is stop-safe, and started again where there is still room.
+
+/// Ends these instances, whose room a task that is being deployed holds
+/// already, and replies once they are gone.
+caf::result<instances_preempted>
+preempt_for_task(coordinator_pointer self, const preempt_instances& request);
+
+/// Takes up what an earlier run of the coordinator has told to end.
+void restore_orders(coordinator_pointer self);
+
+/// Starts again what has ended by order, where nobody needs its room any more,
+/// those of the highest priority first. What does not fit stays ended, as
+/// failed, until its task is asked for again.
+///
+/// Meanwhile it may be started by somebody else, or its task be terminated.
+void start_due_again(coordinator_pointer self);
+
+// How the CELL COORDINATOR starts again what has ended, or what somebody wants
+// to begin anew.
+
+/// The steps of a task that have ended otherwise than with 0, and those whose
+/// node has gone from the cell.
+std::vector<std::string> steps_to_heal(const cell_coordinator_state& st,
+                                       const std::string& task);
+
+/// Starts these anew, where they fit. All or nothing.
+/// @param done called once: when they run, or cannot.
+void heal_task(coordinator_pointer self, const std::string& task,
+               const completion_handler& done);
+
+/// Starts these instances of a task, which have ended, where they fit. All or
+/// nothing, as above; what is gone meanwhile is none.
+/// @param done called once: when they run, or cannot.
+void start_ended(coordinator_pointer self, const std::string& task,
+                 const std::vector<std::string>& instances,
+                 const completion_handler& done);
+
+/// Ends instances of a task and starts them again on their nodes; what had
+/// ended, also with 0, where it fits.
+caf::result<task_restarted> restart_task(coordinator_pointer self,
+                                         const task_restart& request);
 
 } // namespace roscell

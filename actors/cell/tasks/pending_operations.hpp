@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/cell/tables/removal_table.hpp"
+#include "actors/cell/tables/ordered_ends.hpp"
 #include "actors/cell/tables/task_table.hpp"
 #include "actors/core/backoff.hpp"
 #include "messages/failure.hpp"

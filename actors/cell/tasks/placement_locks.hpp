@@ -19,4 +19,15 @@ void release_placement_lock(coordinator_pointer self, uint64_t number);
 /// An owner that is gone waits no more.
 void leave_line(coordinator_pointer self, const caf::actor_addr& owner);
 
+// What the cell has to offer when something is to be placed.
+
+/// Asks every active node for its resources, and takes off what is held for
+/// instances that the nodes do not know of yet. A node that does not answer in
+/// time is left out.
+void collect_resources_of_cell(
+    coordinator_pointer self,
+    const std::function<void(cell_resources&&)>& done);
+
+caf::result<cell_resources> answer_resources(coordinator_pointer self);
+
 } // namespace roscell

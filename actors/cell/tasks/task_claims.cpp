@@ -1,14 +1,12 @@
-#include "actors/cell/tasks/task_claims.hpp"
+#include "actors/cell/tasks/cell_tasks.hpp"
 
 #include "actors/cell/limits.hpp"
 #include "actors/cell/state/may_start.hpp"
-#include "actors/cell/tasks/cell_resources.hpp"
 #include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
-#include "actors/cell/tasks/task_restart.hpp"
 #include "actors/cell/tasks/task_views.hpp"
-#include "actors/core/wall_clock.hpp"
+#include "actors/core/clocks.hpp"
 #include "actors/core/watching.hpp"
 #include "messages/failure.hpp"
 

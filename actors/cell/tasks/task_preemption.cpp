@@ -1,11 +1,9 @@
-#include "actors/cell/tasks/task_preemption.hpp"
+#include "actors/cell/tasks/cell_tasks.hpp"
 
+#include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
-#include "actors/cell/state/task_story.hpp"
-#include "actors/cell/tasks/ordered_stops.hpp"
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
-#include "actors/cell/tasks/task_restart.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"

@@ -1,9 +1,8 @@
 #include "actors/cell/tasks/task_removals.hpp"
 
+#include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/may_start.hpp"
-#include "actors/cell/state/task_remains.hpp"
-#include "actors/cell/state/task_story.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "messages/event_kinds.hpp"
 

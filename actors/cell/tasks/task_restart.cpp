@@ -1,8 +1,6 @@
-#include "actors/cell/tasks/task_restart.hpp"
+#include "actors/cell/tasks/cell_tasks.hpp"
 
-#include "actors/cell/moves/move_end.hpp"
-#include "actors/cell/moves/move_run.hpp"
-#include "actors/cell/tasks/ordered_stops.hpp"
+#include "actors/cell/moves/moved_steps.hpp"
 #include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_views.hpp"

@@ -1,7 +1,7 @@
 #include "actors/edge/dds/discovery_address.hpp"
 
 #include "actors/edge/host/interfaces.hpp"
-#include "dds/free_port.hpp"
+#include "dds/server_addresses.hpp"
 
 #include <array>
 #include <cerrno>

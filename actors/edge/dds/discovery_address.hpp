@@ -38,7 +38,7 @@ private:
   int fd_ = -1;
 };
 
-/// As `free_port` of dds/free_port.hpp, on one address; refused as
+/// As `free_port` of dds/server_addresses.hpp, on one address; refused as
 /// `udp_socket::bind` is.
 edge_result<std::uint16_t> free_port(const std::string& address,
                                      std::uint16_t first, unsigned places);

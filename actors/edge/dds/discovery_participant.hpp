@@ -1,11 +1,11 @@
 #pragma once
 
-#include "actors/edge/dds/discovery_sighting.hpp"
 #include "actors/edge/dds/limits.hpp"
 #include "actors/edge/dds/lives/discovery_guard.hpp"
 #include "actors/edge/dds/ros_graph.hpp"
+#include "actors/edge/dds/rtps/discovery_probe.hpp"
 #include "actors/edge/io/edge_error.hpp"
-#include "dds/participant_ids.hpp"
+#include "dds/host_transport.hpp"
 
 #include <chrono>
 #include <cstdint>

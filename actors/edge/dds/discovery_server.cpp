@@ -3,8 +3,7 @@
 #include "actors/edge/dds/discovery_address.hpp"
 #include "actors/edge/dds/discovery_participant.hpp"
 #include "actors/edge/dds/herald.hpp"
-#include "actors/edge/dds/lives/introducer.hpp"
-#include "actors/edge/dds/rtps/server_readiness.hpp"
+#include "actors/edge/dds/rtps/probe_responder.hpp"
 
 #include <algorithm>
 #include <mutex>

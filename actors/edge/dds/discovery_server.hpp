@@ -1,9 +1,9 @@
 #pragma once
 
-#include "actors/edge/dds/discovery_sighting.hpp"
 #include "actors/edge/dds/limits.hpp"
 #include "actors/edge/dds/lives/number_reserve.hpp"
 #include "actors/edge/dds/ros_graph.hpp"
+#include "actors/edge/dds/rtps/discovery_probe.hpp"
 #include "actors/edge/io/edge_error.hpp"
 
 #include <chrono>

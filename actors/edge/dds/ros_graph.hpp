@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dds/server_ids.hpp"
+#include "dds/server_addresses.hpp"
 
 #include <array>
 #include <cstddef>

@@ -16,4 +16,10 @@ std::optional<std::string> read_small_file(const std::filesystem::path& path,
 /// with errno set: some of it may have been written.
 bool write_whole(int fd, std::string_view bytes);
 
+/// Replaces the file by one with this text, which outlives a loss of power: a
+/// reader finds the whole of the old one or of the new one. Returns why it
+/// cannot, empty if it could.
+std::string write_lasting(const std::filesystem::path& file,
+                          const std::string& text);
+
 } // namespace roscell

@@ -1,7 +1,12 @@
 #include "actors/edge/engine/engine_client.hpp"
 
-#include "actors/edge/engine/engine_text.hpp"
+#include "actors/edge/engine/limits.hpp"
+#include "schemas/utf8.hpp"
 
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cerrno>
 #include <system_error>
 #include <utility>
 
@@ -94,6 +99,117 @@ engine_stream engine_client::stream(engine_request what,
   return subscribe_http(
       core_, to_call(socket_, std::move(what)),
       {std::move(calls.on_open), std::move(calls.on_bytes), std::move(on_end)});
+}
+
+namespace {
+
+using json = nlohmann::json;
+
+std::string text_of(const json& document, const char* name) {
+  const auto i = document.find(name);
+  return i != document.end() && i->is_string() ? i->get<std::string>()
+                                               : std::string{};
+}
+
+std::string message_in(const std::string& body) {
+  const auto document = json::parse(body, nullptr, false);
+  if (!document.is_object())
+    return body;
+  auto result = text_of(document, "message");
+  const auto cause = text_of(document, "cause");
+  if (!cause.empty() && result.find(cause) == std::string::npos)
+    result += (result.empty() ? "" : ": ") + cause;
+  return result;
+}
+
+/// The beginning and the end of a text that is too long: Podman's long ones
+/// tell the reason last. Half of the bound is for what it is told with.
+std::string shortened(const std::string& text) {
+  constexpr auto kept = limits::engine::status_bytes / 4;
+  return text.size() <= 2 * kept
+             ? text
+             : text.substr(0, kept) + " ... " + text.substr(text.size() - kept);
+}
+
+/// What helps against what an engine complains of: a part of its words, and the
+/// remedy.
+constexpr std::array<std::pair<const char*, const char*>, 3> remedies{{
+    {"no space left",
+     "free space on the engine's disk: docker system df (podman system df)"},
+    {"could not select device driver",
+     "install the NVIDIA Container Toolkit on this host, then run: nvidia-ctk "
+     "runtime configure --runtime=docker && systemctl restart docker"},
+    {"CDI device",
+     "install the NVIDIA Container Toolkit on this host, then run: nvidia-ctk "
+     "cdi generate --output=/etc/cdi/nvidia.yaml"},
+}};
+
+std::string remedy_for(const std::string& words) {
+  for (const auto& [complaint, remedy] : remedies)
+    if (words.find(complaint) != std::string::npos)
+      return remedy;
+  return {};
+}
+
+/// By the socket's name, for an engine that cannot be asked.
+bool is_podman(const std::string& socket) {
+  return socket.find("podman") != std::string::npos;
+}
+
+/// "systemctl start docker", for the engine that this socket is of.
+std::string systemctl(const std::string& verb, const std::string& socket) {
+  const bool of_user = socket.rfind("/run/user/", 0) == 0;
+  return "systemctl " + std::string{of_user ? "--user " : ""} + verb
+         + (is_podman(socket) ? " podman.socket" : " docker");
+}
+
+edge_error not_permitted(const std::string& socket, const std::string& where) {
+  return {error_code::unauthorized, "no permission to use " + where,
+          is_podman(socket)
+              ? "use a Podman of the node's user (systemctl --user enable "
+                "--now podman.socket), or start the node as root"
+              : "add the node's user to the group docker (sudo usermod -aG "
+                "docker USER), or start the node as root"};
+}
+
+} // namespace
+
+edge_error engine_refusal(const std::string& what, const engine_reply& reply) {
+  auto words = valid_utf8(shortened(message_in(reply.body)));
+  while (!words.empty() && (words.back() == '\n' || words.back() == '.'))
+    words.pop_back();
+  if (words.empty())
+    words = "HTTP status " + std::to_string(reply.status);
+  auto remedy = remedy_for(words);
+  return {error_code::engine_failed, what + ": " + words, std::move(remedy)};
+}
+
+edge_error no_engine(const std::string& socket, int error_number) {
+  const auto where = "the container engine on '" + socket + "'";
+  const std::string name = is_podman(socket) ? "podman" : "docker";
+  switch (error_number) {
+  case ENOENT:
+    return {error_code::unreachable,
+            "no container engine: there is no socket '" + socket + "'",
+            "start the engine (" + systemctl("start", socket)
+                + "), or name its socket: --runtime " + name + ":SOCKET"};
+  case EACCES:
+  case EPERM:
+    return not_permitted(socket, where);
+  case ECONNREFUSED:
+    return {error_code::unreachable,
+            "nobody listens: " + where + " does not run",
+            "start the engine: " + systemctl("start", socket)};
+  default:
+    return {error_code::unreachable,
+            "cannot reach " + where + ": "
+                + std::generic_category().message(error_number),
+            "is the engine running? " + systemctl("status", socket)};
+  }
+}
+
+std::string engine_log_command(const std::string& socket) {
+  return is_podman(socket) ? "journalctl -u podman" : "journalctl -u docker";
 }
 
 } // namespace roscell

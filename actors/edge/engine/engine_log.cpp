@@ -1,6 +1,5 @@
 #include "actors/edge/engine/engine_log.hpp"
 
-#include "schemas/base64.hpp"
 #include "schemas/utf8.hpp"
 
 #include <algorithm>

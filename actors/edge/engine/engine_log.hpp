@@ -1,7 +1,7 @@
 #pragma once
 
+#include "actors/edge/limits.hpp"
 #include "actors/edge/process/instance_log.hpp"
-#include "actors/edge/process/limits.hpp"
 
 #include <cstddef>
 #include <cstdint>

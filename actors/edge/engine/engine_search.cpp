@@ -1,6 +1,6 @@
 #include "actors/edge/engine/engine_search.hpp"
 
-#include "actors/edge/engine/engine_text.hpp"
+#include "actors/edge/engine/engine_client.hpp"
 #include "actors/edge/engine/limits.hpp"
 #include "actors/edge/http/client/http_client.hpp"
 #include "actors/edge/io/unique_fd.hpp"

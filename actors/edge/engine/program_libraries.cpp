@@ -1,8 +1,8 @@
 #include "actors/edge/engine/program_libraries.hpp"
 
 #include "actors/edge/engine/limits.hpp"
+#include "actors/edge/process/elf_properties.hpp"
 #include "actors/edge/process/process_spawner.hpp"
-#include "actors/edge/program/elf_properties.hpp"
 
 #include <link.h>
 #include <sys/stat.h>

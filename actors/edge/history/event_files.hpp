@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/edge/io/edge_error.hpp"
-#include "messages/inside/history.hpp"
+#include "messages/inside/storage.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/edge/history/event_files.hpp"
-#include "actors/edge/history/event_numbers.hpp"
+#include "actors/edge/history/event_lines.hpp"
 #include "actors/edge/history/kept_log_folder.hpp"
 
 #include <chrono>

@@ -3,10 +3,14 @@
 #include "actors/edge/process/instance_log.hpp"
 #include "messages/kept_log.hpp"
 
+#include <sys/stat.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace roscell {
@@ -76,5 +80,29 @@ private:
   std::vector<sized_entry> seen_; ///< The oldest last.
   uint64_t bytes_ = 0;
 };
+
+// INTERNAL to the folder of kept logs: what lies on the disk, of which links
+// are not followed and nothing need be there any more.
+
+bool look_at(const std::filesystem::path& path, struct stat& info);
+
+bool is_folder(const std::filesystem::path& path);
+
+bool is_file(const std::filesystem::path& path);
+
+/// Calls `visit` with each path in the folder, as far as it can be read.
+template <class Visit>
+void for_each_in(const std::filesystem::path& folder, Visit&& visit) {
+  std::error_code error;
+  for (std::filesystem::directory_iterator i{folder, error}, end;
+       !error && i != end; i.increment(error))
+    visit(i->path());
+}
+
+/// What a file, or a folder with its files, takes on the disk.
+uint64_t bytes_below(const std::filesystem::path& path);
+
+/// Replaces the content of a file. False: it may have a part of it.
+bool write_file(const std::filesystem::path& path, std::string_view bytes);
 
 } // namespace roscell

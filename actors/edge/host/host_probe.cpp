@@ -2,8 +2,7 @@
 
 #include "actors/edge/host/host_probe_capacity.hpp"
 #include "actors/edge/host/host_probe_files.hpp"
-#include "actors/edge/host/host_probe_limits.hpp"
-#include "actors/edge/host/limits.hpp"
+#include "actors/edge/limits.hpp"
 
 #include <algorithm>
 #include <array>

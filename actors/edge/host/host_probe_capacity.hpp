@@ -5,6 +5,7 @@
 
 #include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace roscell {
@@ -31,5 +32,12 @@ edge_result<capacity_bound> parse_capacity(std::string_view text);
 /// so use by others is taken to lie outside the slice as far as there is room
 /// for it outside. A bound above the host's capacity changes nothing.
 host_resources apply_bound(host_resources host, const capacity_bound& bound);
+
+// INTERNAL to this folder.
+
+/// What the cgroups of this process, their parents included, leave it: CPU
+/// quota and memory limit, of version 2 and of version 1. Files that are not
+/// there bound nothing. `root` stands before /proc and /sys.
+capacity_bound cgroup_bound(const std::string& root);
 
 } // namespace roscell

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "messages/error_code.hpp"
+#include "messages/failure.hpp"
 
 #include <boost/beast/http/fields.hpp>
 #include <boost/beast/http/message.hpp>

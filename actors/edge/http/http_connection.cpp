@@ -1,9 +1,8 @@
 #include "actors/edge/http/http_connection.hpp"
 
-#include "actors/edge/http/error_body.hpp"
-#include "actors/edge/http/http_paths.hpp"
-#include "actors/edge/http/http_sink.hpp"
+#include "actors/edge/http/http_shared.hpp"
 #include "actors/edge/http/http_target.hpp"
+#include "actors/edge/http/http_types.hpp"
 #include "actors/edge/http/limits.hpp"
 
 #include <boost/asio/buffer.hpp>

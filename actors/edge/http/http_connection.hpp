@@ -2,8 +2,8 @@
 
 #include "actors/edge/http/http_shared.hpp"
 #include "actors/edge/http/http_stream_connection.hpp"
-#include "actors/edge/io/stream_socket.hpp"
-#include "actors/edge/session/session_accept.hpp"
+#include "actors/edge/io/sockets.hpp"
+#include "actors/edge/session/session_dialog.hpp"
 
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>

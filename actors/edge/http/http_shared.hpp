@@ -1,10 +1,14 @@
 #pragma once
 
 #include "actors/edge/http/http_access.hpp"
-#include "actors/edge/http/http_limits.hpp"
 #include "actors/edge/http/http_types.hpp"
+#include "actors/edge/http/limits.hpp"
 #include "actors/edge/io/io_core.hpp"
+#include "actors/edge/io/sockets.hpp"
 #include "actors/edge/session/session_link.hpp"
+
+#include <boost/asio/posix/stream_descriptor.hpp>
+#include <boost/asio/steady_timer.hpp>
 
 #include <array>
 #include <cstddef>
@@ -100,6 +104,43 @@ struct http_shared {
   bool draining = false;         ///< Every reply is the last one.
   std::function<void()> on_idle; ///< Called when the table gets empty.
   connection_table table;
+};
+
+class http_connection;
+struct http_shared;
+
+/// INTERNAL to this folder: where the answer to the request in progress of a
+/// connection goes, from any thread and also after the client has gone.
+std::shared_ptr<reply_sink>
+make_sink(std::shared_ptr<http_shared> shared,
+          std::weak_ptr<http_connection> connection);
+
+/// Status line and header fields of a reply that is not a stream.
+std::string reply_head(const http_reply& reply, bool is_last);
+
+/// INTERNAL to this folder: takes connections from one listening socket.
+/// Io thread only.
+class http_listener : public std::enable_shared_from_this<http_listener> {
+public:
+  /// Owns `fd`, which does not block. `local` says that it is a Unix socket.
+  http_listener(std::shared_ptr<http_shared> shared, int fd, bool local);
+
+  void run();
+  void close();
+
+private:
+  using error = boost::system::error_code;
+
+  void wait();
+  bool accept_one();
+  void admit(int fd);
+  void rest();
+
+  std::shared_ptr<http_shared> shared_;
+  boost::asio::posix::stream_descriptor listening_;
+  boost::asio::steady_timer pause_;
+  const bool local_;
+  bool complained_ = false;
 };
 
 } // namespace roscell

@@ -1,6 +1,6 @@
 #include "actors/edge/http/http_stream_connection.hpp"
 
-#include "actors/edge/http/error_body.hpp"
+#include "actors/edge/http/http_types.hpp"
 #include "actors/edge/http/limits.hpp"
 
 #include <boost/asio/buffer.hpp>

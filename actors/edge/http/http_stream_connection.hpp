@@ -1,9 +1,9 @@
 #pragma once
 
-#include "actors/edge/http/http_limits.hpp"
 #include "actors/edge/http/http_types.hpp"
+#include "actors/edge/http/limits.hpp"
 #include "actors/edge/io/io_core.hpp"
-#include "actors/edge/io/stream_socket.hpp"
+#include "actors/edge/io/sockets.hpp"
 
 #include <boost/asio/steady_timer.hpp>
 

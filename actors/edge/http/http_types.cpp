@@ -1,6 +1,6 @@
 #include "actors/edge/http/http_types.hpp"
 
-#include "actors/edge/http/error_body.hpp"
+#include <nlohmann/json.hpp>
 
 #include <utility>
 
@@ -75,6 +75,18 @@ std::shared_ptr<http_stream> responder::stream(std::string content_type) const {
   if (once_->take())
     return once_->sink->stream(std::move(content_type));
   return std::make_shared<closed_stream>();
+}
+
+std::string error_body(error_code code, std::string_view message,
+                       std::string_view hint, std::string_view where) {
+  using json = nlohmann::json;
+  const json body{{"type", "error"},
+                  {"error",
+                   {{"code", to_word(code)},
+                    {"message", message},
+                    {"where", where},
+                    {"hint", hint}}}};
+  return body.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 } // namespace roscell

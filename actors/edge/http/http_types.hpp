@@ -1,6 +1,6 @@
 #pragma once
 
-#include "messages/error_code.hpp"
+#include "messages/failure.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -90,5 +90,10 @@ private:
 
 /// Called on the io thread; must return soon.
 using http_handler = std::function<void(http_request, responder)>;
+
+/// The text of `{"type":"error","error":{"code","message","where","hint"}}`.
+/// Bytes that are no UTF-8 are replaced.
+std::string error_body(error_code code, std::string_view message,
+                       std::string_view hint = {}, std::string_view where = {});
 
 } // namespace roscell

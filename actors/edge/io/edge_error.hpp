@@ -1,6 +1,6 @@
 #pragma once
 
-#include "messages/error_code.hpp"
+#include "messages/failure.hpp"
 
 #include <string>
 #include <variant>

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <ctime>
+#include <string>
 
 /// The time by which a node notes when something has happened. A wall clock may
 /// be set at any moment: a host without a battery begins in 1970, and is right
@@ -46,5 +47,13 @@ inline int64_t wall_clock_ahead_ms() {
     known = ahead;
   return known;
 }
+
+// Times as text; "-" for one that no calendar has.
+
+/// As ISO 8601 writes it, in UTC: "2026-11-22T17:01:02.345Z".
+std::string iso_time(int64_t unix_ms);
+
+/// In the time of this place: "2026-11-21 14:03:07.250".
+std::string local_time(int64_t unix_ms);
 
 } // namespace roscell

@@ -1,10 +1,41 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <string>
 #include <string_view>
 
-/// What unauthenticated peers may call themselves: it ends up in replies and
-/// logs.
 namespace roscell {
+
+/// Cuts a stream of bytes into lines, without their line feeds.
+class line_splitter {
+public:
+  /// Returns whether it wants more.
+  using receiver = std::function<bool(std::string_view line)>;
+
+  line_splitter(size_t max_line_bytes, receiver on_line);
+
+  /// False if the receiver has enough.
+  bool take(std::string_view bytes);
+
+  /// The last line may have no line feed.
+  void finish();
+
+  /// Whether the rest that is kept exceeds the longest line.
+  bool too_long() const {
+    return rest_.size() > max_line_bytes_;
+  }
+
+private:
+  bool pass(std::string_view line);
+
+  size_t max_line_bytes_;
+  receiver on_line_;
+  std::string rest_;
+};
+
+// What unauthenticated peers may call themselves: it ends up in replies and
+// logs.
 
 /// Whether the byte is an ASCII control character.
 bool is_control(char c);

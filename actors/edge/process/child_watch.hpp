@@ -1,8 +1,9 @@
 #pragma once
 
-#include "actors/edge/io/fd_watch.hpp"
+#include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/process/notification.hpp"
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 
@@ -40,5 +41,12 @@ private:
   fd_watch end_;
   fd_watch words_;
 };
+
+/// Calls back on the io thread when a file in a folder is made, written to or
+/// renamed. Calls nothing if the folder cannot be watched; then followers of a
+/// log get their answers when their time is over.
+fd_watch watch_folder(const std::shared_ptr<io_core>& core,
+                      const std::filesystem::path& folder,
+                      std::function<void()> on_change);
 
 } // namespace roscell

@@ -1,6 +1,6 @@
 #include "actors/edge/process/fence_file.hpp"
 
-#include "actors/edge/disk/own_folder.hpp"
+#include "actors/edge/disk/file_rights.hpp"
 #include "actors/edge/io/crypto.hpp"
 #include "actors/edge/io/unique_fd.hpp"
 

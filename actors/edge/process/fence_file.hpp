@@ -7,8 +7,8 @@
 #include <optional>
 
 /// The files by which the shims of instances are told how long these may go on
-/// (tools/instance_shim/fence.hpp): one 64-bit number each, in milliseconds of
-/// CLOCK_BOOTTIME.
+/// (tools/instance_shim/supervision.hpp): one 64-bit number each, in
+/// milliseconds of CLOCK_BOOTTIME.
 namespace roscell {
 
 /// Where the fence of an instance lies: in memory, for it is written every few

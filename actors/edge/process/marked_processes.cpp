@@ -1,7 +1,6 @@
-#include "actors/edge/process/marked_processes.hpp"
+#include "actors/edge/process/process_identity.hpp"
 
 #include "actors/edge/io/unique_fd.hpp"
-#include "actors/edge/process/pidfd.hpp"
 
 #include <dirent.h>
 #include <fcntl.h>

@@ -1,7 +1,6 @@
 #include "actors/edge/process/process_identity.hpp"
 
 #include "actors/edge/disk/small_file.hpp"
-#include "actors/edge/process/pidfd.hpp"
 #include "messages/codec/json_codec.hpp"
 
 #include <poll.h>

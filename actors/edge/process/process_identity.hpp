@@ -10,6 +10,11 @@
 #include <string>
 #include <string_view>
 
+// The header of glibc 2.36, Debian 12's, forgets to say that these are C
+// functions (glibc bug 29697).
+extern "C" {
+#include <sys/pidfd.h>
+}
 namespace roscell {
 
 /// Tells a process from all others that have had, or will have, its number.
@@ -63,5 +68,13 @@ struct recorded_end {
 /// What that file says, in its folder. Nothing as long as it has not
 /// ended in order.
 std::optional<recorded_end> read_exit_record(const std::filesystem::path& dir);
+
+/// Kills every process of this host that was started with the environment
+/// variable `name` of this value, and waits a moment for their end: a killed
+/// one may have started another one meanwhile, so it looks again until there is
+/// none, nor one that is about to become another program. Finds what has a
+/// session and a parent of its own, but not what has dropped the variable.
+/// Returns how many it has killed. Blocks for a second at most.
+int kill_marked_processes(const std::string& name, const std::string& value);
 
 } // namespace roscell

@@ -1,6 +1,6 @@
 #include "actors/edge/process/process_spawner.hpp"
 
-#include "actors/edge/process/pidfd.hpp"
+#include "actors/edge/process/process_identity.hpp"
 #include "schemas/utf8.hpp"
 
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 #include "actors/edge/process/skill_grants.hpp"
 
-#include "actors/edge/process/capabilities.hpp"
+#include "actors/edge/process/privileges.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,8 +1,8 @@
 #include "actors/edge/reach/reach_tries.hpp"
 
-#include "actors/edge/dds/rtps/server_question.hpp"
 #include "actors/edge/io/io_core.hpp"
 #include "actors/edge/reach/reach_port.hpp"
+#include "actors/edge/reach/udp_question.hpp"
 #include "actors/edge/session/address_probe.hpp"
 #include "actors/edge/session/limits.hpp"
 

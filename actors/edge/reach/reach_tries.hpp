@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/edge/io/io_thread.hpp"
-#include "actors/edge/reach/reach_packet.hpp"
+#include "actors/edge/reach/reach_port.hpp"
 #include "messages/insight/reach.hpp"
 
 #include <functional>

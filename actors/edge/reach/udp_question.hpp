@@ -1,7 +1,10 @@
 #pragma once
 
 #include "actors/edge/io/io_thread.hpp"
+#include "actors/edge/io/socket_address.hpp"
 #include "messages/insight/reach.hpp"
+
+#include <netinet/in.h>
 
 #include <chrono>
 #include <cstddef>
@@ -11,8 +14,6 @@
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <netinet/in.h>
 
 namespace roscell {
 
@@ -41,5 +42,16 @@ struct udp_answer {
 /// to stop. From any thread.
 void ask_udp(const std::shared_ptr<io_core>& core, udp_question what,
              std::function<void(udp_answer)> done);
+
+/// Asks a UDP port, as discovery_probe.hpp says, whether a discovery server
+/// listens there: `found`, or `unauthenticated_peer` if its GUID prefix is none
+/// of the well-known ones. `done` is called once, on the io thread, within
+/// `limit`; not at all once the io thread has been told to stop. From any
+/// thread.
+void ask_discovery_port(const std::shared_ptr<io_core>& core,
+                        const std::string& local_address,
+                        const socket_address& server,
+                        std::chrono::milliseconds limit,
+                        std::function<void(udp_answer)> done);
 
 } // namespace roscell

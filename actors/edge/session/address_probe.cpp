@@ -1,11 +1,10 @@
 #include "actors/edge/session/address_probe.hpp"
 
-#include "actors/edge/dds/rtps/server_question.hpp"
 #include "actors/edge/http/client/http_call.hpp"
-#include "actors/edge/http/http_paths.hpp"
+#include "actors/edge/http/http_target.hpp"
 #include "actors/edge/io/io_core.hpp"
+#include "actors/edge/reach/udp_question.hpp"
 #include "actors/edge/session/limits.hpp"
-#include "schemas/decode.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
 

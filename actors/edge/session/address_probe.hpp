@@ -2,7 +2,7 @@
 
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/io/socket_address.hpp"
-#include "messages/inside/join_diagnosis.hpp"
+#include "messages/inside/membership.hpp"
 
 #include <functional>
 #include <memory>

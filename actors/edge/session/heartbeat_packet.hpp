@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/edge/io/crypto.hpp"
-#include "messages/heartbeat.hpp"
+#include "messages/session.hpp"
 
 #include <array>
 #include <cstddef>

@@ -1,7 +1,7 @@
 #include "actors/edge/session/heartbeat_socket.hpp"
 
 #include "actors/edge/io/io_core.hpp"
-#include "actors/edge/io/listen_socket.hpp"
+#include "actors/edge/io/sockets.hpp"
 
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/steady_timer.hpp>

@@ -2,11 +2,11 @@
 
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/edge/io/io_thread.hpp"
-#include "actors/edge/reach/reach_packet.hpp"
-#include "actors/edge/session/fault_seam.hpp"
+#include "actors/edge/reach/reach_port.hpp"
 #include "actors/edge/session/heartbeat_packet.hpp"
 #include "actors/edge/session/session_handshake.hpp"
-#include "actors/edge/site/site_secret.hpp"
+#include "actors/edge/session/session_link.hpp"
+#include "actors/edge/session/site_token.hpp"
 
 #include <cstdint>
 #include <functional>

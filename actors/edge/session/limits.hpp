@@ -67,4 +67,14 @@ constexpr size_t spent_nonces = 64;
 
 } // namespace token
 
+// Secrets.
+
+namespace token {
+
+/// A site token shorter than this could be guessed.
+constexpr size_t least_site_bytes = 16;
+constexpr size_t most_bytes = 4 * kib;
+
+} // namespace token
+
 } // namespace roscell::limits

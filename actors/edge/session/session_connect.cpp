@@ -1,5 +1,5 @@
-#include "actors/edge/http/error_body.hpp"
-#include "actors/edge/http/http_paths.hpp"
+#include "actors/edge/http/http_target.hpp"
+#include "actors/edge/http/http_types.hpp"
 #include "actors/edge/session/session_dialog.hpp"
 
 #include <boost/asio/ip/tcp.hpp>

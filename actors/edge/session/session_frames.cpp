@@ -1,6 +1,6 @@
 #include "actors/edge/session/session_frames.hpp"
 
-#include "actors/edge/http/error_body.hpp"
+#include "actors/edge/http/http_types.hpp"
 #include "actors/edge/io/crypto.hpp"
 #include "actors/edge/io/plain_text.hpp"
 #include "messages/codec/instantiate.hpp"

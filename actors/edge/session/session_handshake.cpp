@@ -1,6 +1,6 @@
 #include "actors/edge/session/session_handshake.hpp"
 
-#include "actors/edge/session/transcript.hpp"
+#include "actors/edge/session/proofs.hpp"
 
 #include <utility>
 

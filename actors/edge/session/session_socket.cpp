@@ -1,4 +1,4 @@
-#include "actors/edge/session/session_socket.hpp"
+#include "actors/edge/session/websocket_link.hpp"
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/steady_timer.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/instances/engine/container_files.hpp"
+#include "actors/instances/engine/container_access.hpp"
 #include "messages/codec/json_codec.hpp"
 #include "messages/inside/runtime.hpp"
 
@@ -39,5 +39,10 @@ json container_document(const start_container& request,
                         const container_setting& setting,
                         const std::string& notify_dir,
                         const container_shim& shim);
+
+/// The body of Podman's own POST /libpod/containers/create for the container
+/// that `container_document` describes to Docker: Podman drops the GPU requests
+/// of Docker's API without a word. GPUs are CDI devices, "nvidia.com/gpu=0".
+json podman_document(const std::string& name, const json& docker);
 
 } // namespace roscell

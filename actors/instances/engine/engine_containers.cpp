@@ -1,4 +1,4 @@
-#include "actors/instances/engine/engine_containers.hpp"
+#include "actors/instances/engine/engine_parts.hpp"
 
 #include "actors/core/edge_failure.hpp"
 #include "actors/edge/http/http_target.hpp"

@@ -1,5 +1,5 @@
-#include "actors/edge/engine/engine_text.hpp"
-#include "actors/edge/engine/file_marks.hpp"
+#include "actors/edge/engine/build_context.hpp"
+#include "actors/edge/engine/engine_client.hpp"
 #include "actors/edge/engine/limits.hpp"
 #include "actors/edge/http/http_target.hpp"
 #include "actors/instances/engine/engine_parts.hpp"

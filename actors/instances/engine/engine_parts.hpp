@@ -1,13 +1,65 @@
 #pragma once
 
-#include "actors/instances/engine/engine_calls.hpp"
+#include "actors/edge/engine/limits.hpp"
+#include "actors/edge/process/process_identity.hpp"
+#include "actors/instances/engine/engine_runtime.hpp"
 
+#include <caf/error.hpp>
 #include <caf/result.hpp>
 
+#include <chrono>
+#include <filesystem>
 #include <functional>
+#include <optional>
+#include <string>
 
-/// INTERNAL to the engine runtime: its parts.
+/// INTERNAL to the engine runtime: what its parts share.
 namespace roscell {
+
+using engine_runtime_pointer =
+    engine_runtime_actor::stateful_pointer<engine_runtime_state>;
+
+/// Asks the engine; the answer comes as a message to this actor, which calls
+/// `then`.
+void ask_engine(engine_runtime_pointer self, engine_request what,
+                engine_runtime_state::continuation then);
+
+/// Asks for a streamed answer, whose lines come as `engine_streamed`; `then`
+/// is called at its end.
+struct opened_call {
+  uint64_t call = 0;
+  engine_stream stream;
+};
+opened_call stream_lines(engine_runtime_pointer self, engine_request what,
+                         engine_runtime_state::continuation then);
+
+/// Registers what happens at the end of a call.
+uint64_t expect_answer(engine_runtime_pointer self,
+                       engine_runtime_state::continuation then);
+
+/// The message for an answer, made on the io thread.
+engine_answered to_message(uint64_t call, engine_answer answer);
+
+/// Whether the engine could not be asked at all, so that nothing is known.
+bool is_lost(const engine_answered& x);
+
+bool is_good(const engine_answered& x);
+
+/// What went wrong, as a sentence that begins with `what`: engine_failed.
+caf::error engine_failure(const std::string& what, const engine_answered& x);
+
+/// The JSON object of a good answer; an empty object if it is none.
+json object_of(const engine_answered& x);
+
+/// A part of an object; the default if it is not there, or something else.
+std::string text_at(const json& object, const char* name);
+int64_t number_at(const json& object, const char* name, int64_t otherwise);
+bool flag_at(const json& object, const char* name);
+
+/// An object in an object; empty if it is none.
+json object_at(const json& object, const char* name);
+
+// INTERNAL to the engine runtime: its parts.
 
 // Images: engine_images.cpp.
 caf::result<image_prepared> prepare(engine_runtime_pointer self,
@@ -55,5 +107,69 @@ bool take_end_of_log(engine_runtime_pointer self, const engine_log_read& end);
 
 /// Answers the followers whose time is over, and sets the alarm for the others.
 void release_followers(engine_runtime_pointer self);
+
+// INTERNAL to the engine runtime: what it knows of its containers.
+
+caf::error bad_id(const std::string& instance);
+
+/// Null if none is known.
+engine_container* find_container(engine_runtime_pointer self,
+                                 const std::string& instance);
+
+/// The host's folder with the instance's NOTIFY_SOCKET, see
+/// container_notify_path.
+std::filesystem::path notify_dir(engine_runtime_pointer self,
+                                 const std::string& instance);
+
+/// The host's file with the instance's fence.
+std::filesystem::path fence_file(engine_runtime_pointer self,
+                                 const std::string& instance);
+
+/// The host's file in which the instance's shim writes how it has ended.
+std::filesystem::path exit_file(engine_runtime_pointer self,
+                                const std::string& instance);
+
+/// The host's copy of the shim, for containers.
+std::filesystem::path shim_file(engine_runtime_pointer self);
+
+/// Makes the NOTIFY_SOCKET and listens to it. Errors: engine_failed.
+caf::error open_status(engine_runtime_pointer self, const std::string& instance,
+                       engine_container& x);
+
+/// Has the listener told what waits at its NOTIFY_SOCKET.
+void hear(engine_runtime_pointer self, const std::string& instance);
+
+/// It runs, and everybody may know.
+void settle(engine_runtime_pointer self, const std::string& instance,
+            const std::string& id);
+
+/// Forgets it; whatever waited goes on.
+void forget(engine_runtime_pointer self, const std::string& instance);
+
+/// Removes what the host has of it.
+void clean_up(engine_runtime_pointer self, const std::string& instance);
+
+/// The container of an instance has ended: tells it, once.
+void on_container_ended(engine_runtime_pointer self,
+                        const std::string& instance, const std::string& id,
+                        int exit_code);
+
+engine_request
+to_container(std::string method, const std::string& container,
+             const std::string& what,
+             std::chrono::milliseconds limit = limits::engine::call);
+
+/// What a request means: its container, or the present one of the instance.
+std::string target_of(const std::string& container,
+                      const std::string& instance);
+
+/// Of an inspected container. The exit code is negative if it is not known.
+int exit_code_of(const json& container);
+bool is_running(const json& container);
+
+/// What has ended a container besides its exit code: what its engine says, and
+/// what its shim has written down.
+end_cause cause_of(const json& container,
+                   const std::optional<recorded_end>& end, int exit_code);
 
 } // namespace roscell

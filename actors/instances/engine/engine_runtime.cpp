@@ -2,7 +2,6 @@
 
 #include "actors/core/watching.hpp"
 #include "actors/edge/engine/build_context.hpp"
-#include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/life/any_runtime.hpp"
 #include "messages/event_kinds.hpp"

@@ -3,9 +3,9 @@
 #include "actors/core/actor_context.hpp"
 #include "actors/core/alarm.hpp"
 #include "actors/core/backoff.hpp"
+#include "actors/edge/engine/build_context.hpp"
 #include "actors/edge/engine/engine_client.hpp"
-#include "actors/edge/engine/file_marks.hpp"
-#include "actors/edge/io/fd_watch.hpp"
+#include "actors/edge/io/io_thread.hpp"
 #include "actors/instances/engine/container_document.hpp"
 #include "messages/messages.hpp"
 

@@ -2,11 +2,10 @@
 #include "actors/edge/engine/limits.hpp"
 #include "actors/edge/http/http_target.hpp"
 #include "actors/edge/io/unique_fd.hpp"
-#include "actors/edge/process/environment_file.hpp"
 #include "actors/edge/process/fence_file.hpp"
-#include "actors/instances/engine/engine_containers.hpp"
+#include "actors/edge/process/notify_socket.hpp"
+#include "actors/instances/engine/container_document.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
-#include "actors/instances/engine/podman_document.hpp"
 #include "actors/instances/life/any_runtime.hpp"
 #include "messages/failure.hpp"
 

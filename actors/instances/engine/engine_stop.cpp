@@ -1,5 +1,4 @@
 #include "actors/edge/engine/limits.hpp"
-#include "actors/instances/engine/engine_containers.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/life/any_runtime.hpp"
 #include "actors/instances/limits.hpp"

@@ -2,8 +2,7 @@
 
 #include "actors/core/edge_failure.hpp"
 #include "actors/core/watching.hpp"
-#include "actors/edge/engine/file_marks.hpp"
-#include "actors/instances/engine/dockerfile.hpp"
+#include "actors/edge/engine/build_context.hpp"
 #include "actors/instances/skills/skill_program.hpp"
 #include "messages/failure.hpp"
 

@@ -2,7 +2,6 @@
 
 #include "actors/core/actor_context.hpp"
 #include "actors/edge/engine/build_context.hpp"
-#include "actors/edge/engine/file_marks.hpp"
 #include "messages/messages.hpp"
 
 #include <filesystem>

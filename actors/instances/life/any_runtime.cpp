@@ -1,7 +1,9 @@
 #include "actors/instances/life/any_runtime.hpp"
 
+#include "actors/core/answer_limits.hpp"
 #include "actors/edge/process/fence_file.hpp"
 #include "messages/event_kinds.hpp"
+#include "messages/failure.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -25,6 +27,26 @@ void keep_fence(const actor_context& context, const std::filesystem::path& file,
   if (why && !failed_before)
     context.publish_event(events::fence_failed, request.instance,
                           {{"reason", why->message}, {"hint", why->hint}});
+}
+
+std::chrono::milliseconds wait_of(const log_query& query) {
+  return std::chrono::milliseconds{
+      std::clamp<int64_t>(query.wait_ms, 0, limits::log::wait.count())};
+}
+
+bool says_something(const log_excerpt& x) {
+  return !x.text.empty() || x.ended;
+}
+
+caf::error no_log_of(const std::string& instance) {
+  return fail(error_code::unknown_task,
+              "there is no log of an instance '" + instance + "'", "/instance",
+              "`roscell instances` lists them");
+}
+
+caf::error too_many_followers() {
+  return fail(error_code::conflict, "too many follow the logs of this node", {},
+              "ask without following");
 }
 
 } // namespace roscell

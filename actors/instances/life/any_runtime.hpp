@@ -1,9 +1,15 @@
 #pragma once
 
 #include "actors/core/actor_context.hpp"
+#include "actors/core/alarm.hpp"
 #include "actors/edge/process/notification.hpp"
 #include "messages/inside/runtime.hpp"
+#include "messages/instance.hpp"
 
+#include <caf/error.hpp>
+#include <caf/typed_response_promise.hpp>
+
+#include <chrono>
 #include <filesystem>
 #include <string>
 
@@ -28,5 +34,26 @@ inline instance_notified status_notification(const std::string& instance,
   return {instance, x.ready, x.alive,   x.stopping, x.status,
           heard,    x.safe,  x.streams, x.frames,   x.remark};
 }
+
+// What every runtime does alike for those who read its instances' logs.
+
+/// Someone who waits for more of a log.
+struct log_follower {
+  log_query query;
+  alarm::time_point until;
+  caf::typed_response_promise<log_excerpt> promise;
+};
+
+/// How long `query` may be kept waiting; zero: not at all.
+std::chrono::milliseconds wait_of(const log_query& query);
+
+/// Whether an excerpt is worth an answer before its time is over.
+bool says_something(const log_excerpt& x);
+
+/// unknown_task.
+caf::error no_log_of(const std::string& instance);
+
+/// conflict: an answer without a word would be asked again at once.
+caf::error too_many_followers();
 
 } // namespace roscell

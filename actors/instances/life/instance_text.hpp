@@ -4,11 +4,24 @@
 #include "messages/inside/runtime.hpp"
 #include "messages/instance.hpp"
 #include "messages/kept_log.hpp"
+#include "messages/skill.hpp"
 
+#include <chrono>
+#include <map>
 #include <string>
 
-/// What is said of instances to people.
 namespace roscell {
+
+/// What an instance is told by its environment: the contract of
+/// skills/engine/environment.hpp, without NOTIFY_SOCKET, which is the
+/// runtime's. The deployment option's own variables come first, the spec's
+/// replace them, then the node's, then the contract's.
+std::map<std::string, std::string>
+instance_environment(const instance_spec& spec,
+                     const deployment_option& deployment,
+                     const std::map<std::string, std::string>& of_node = {});
+
+// What is said of instances to people.
 
 /// "with exit code 3", "by signal 9", or "in an unknown way" for a negative
 /// one.

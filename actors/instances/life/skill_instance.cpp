@@ -1,7 +1,6 @@
 #include "actors/instances/life/skill_instance.hpp"
 
 #include "actors/core/watching.hpp"
-#include "actors/instances/life/instance_environment.hpp"
 #include "actors/instances/life/instance_text.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
 #include "actors/instances/limits.hpp"

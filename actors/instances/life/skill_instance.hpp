@@ -2,10 +2,9 @@
 
 #include "actors/core/actor_context.hpp"
 #include "actors/core/alarm.hpp"
-#include "actors/edge/process/environment_file.hpp"
+#include "actors/edge/process/notify_socket.hpp"
 #include "actors/edge/process/skill_grants.hpp"
 #include "actors/instances/life/health_table.hpp"
-#include "actors/instances/life/server_sight.hpp"
 #include "actors/instances/skills/skill_catalogue.hpp"
 #include "messages/messages.hpp"
 

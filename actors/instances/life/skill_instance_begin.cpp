@@ -1,9 +1,8 @@
-#include "actors/instances/actor_skills/runtime_switch.hpp"
-#include "actors/instances/life/instance_environment.hpp"
 #include "actors/instances/life/instance_text.hpp"
+#include "actors/instances/life/runtime_switch.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
 #include "actors/instances/limits.hpp"
-#include "actors/instances/ros2/ros2_program_start.hpp"
+#include "actors/instances/ros2/ros2_program.hpp"
 #include "messages/event_kinds.hpp"
 
 #include <csignal>

@@ -1,6 +1,6 @@
 #include "actors/core/limits.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"
-#include "actors/instances/ros2/engine_ends.hpp"
+#include "actors/instances/ros2/ros2_program.hpp"
 #include "messages/event_kinds.hpp"
 #include "schemas/utf8.hpp"
 

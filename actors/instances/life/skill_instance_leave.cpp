@@ -1,4 +1,4 @@
-#include "actors/core/wall_clock.hpp"
+#include "actors/core/clocks.hpp"
 #include "actors/edge/session/limits.hpp"
 #include "actors/instances/life/restart_delay.hpp"
 #include "actors/instances/life/skill_instance_steps.hpp"

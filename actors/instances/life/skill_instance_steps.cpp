@@ -1,8 +1,7 @@
 #include "actors/instances/life/skill_instance_steps.hpp"
 
+#include "actors/core/clocks.hpp"
 #include "actors/core/limits.hpp"
-#include "actors/core/wall_clock.hpp"
-#include "actors/instances/life/instance_environment.hpp"
 #include "actors/instances/life/instance_text.hpp"
 #include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"

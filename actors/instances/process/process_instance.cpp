@@ -1,16 +1,13 @@
 #include "actors/instances/process/process_instance.hpp"
 
 #include "actors/edge/history/kept_log_folder.hpp"
-#include "actors/edge/process/environment_file.hpp"
 #include "actors/edge/process/fence_file.hpp"
-#include "actors/edge/process/marked_processes.hpp"
 #include "actors/edge/process/notify_socket.hpp"
+#include "actors/edge/process/process_identity.hpp"
 #include "actors/edge/process/process_spawner.hpp"
 #include "actors/instances/limits.hpp"
-#include "actors/instances/process/instance_user.hpp"
-#include "actors/instances/process/process_limits.hpp"
 #include "actors/instances/process/shim_program.hpp"
-#include "messages/inside/history.hpp"
+#include "messages/inside/storage.hpp"
 
 #include <caf/send.hpp>
 

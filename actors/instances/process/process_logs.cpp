@@ -1,8 +1,8 @@
-#include "actors/instances/process/process_logs.hpp"
+#include "actors/instances/process/process_runtime.hpp"
 
+#include "actors/edge/limits.hpp"
+#include "actors/edge/process/child_watch.hpp"
 #include "actors/edge/process/instance_log.hpp"
-#include "actors/edge/process/limits.hpp"
-#include "actors/edge/process/log_watch.hpp"
 #include "actors/instances/life/any_runtime.hpp"
 #include "messages/failure.hpp"
 

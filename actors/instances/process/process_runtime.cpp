@@ -3,10 +3,9 @@
 #include "actors/core/edge_failure.hpp"
 #include "actors/core/watching.hpp"
 #include "actors/edge/process/fence_file.hpp"
-#include "actors/edge/process/pidfd.hpp"
+#include "actors/edge/process/process_identity.hpp"
 #include "actors/instances/life/any_runtime.hpp"
 #include "actors/instances/limits.hpp"
-#include "actors/instances/process/process_logs.hpp"
 #include "actors/instances/skills/skill_program.hpp"
 #include "messages/failure.hpp"
 

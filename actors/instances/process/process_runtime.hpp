@@ -2,7 +2,7 @@
 
 #include "actors/core/actor_context.hpp"
 #include "actors/core/alarm.hpp"
-#include "actors/instances/logs/log_following.hpp"
+#include "actors/instances/life/any_runtime.hpp"
 #include "actors/instances/process/process_instance.hpp"
 #include "messages/messages.hpp"
 
@@ -54,5 +54,20 @@ struct process_runtime_state {
 process_runtime_actor::behavior_type process_runtime(
     process_runtime_actor::stateful_pointer<process_runtime_state> self,
     const process_runtime_config& config, container_listener_actor listener);
+
+// INTERNAL to the process runtime: reading and following logs.
+
+using process_runtime_pointer =
+    process_runtime_actor::stateful_pointer<process_runtime_state>;
+
+/// Answers now, or when there is something to say.
+caf::result<log_excerpt> read_log(process_runtime_pointer self,
+                                  const log_query& query);
+
+/// Checks whether the followers of an instance's log can be answered.
+void serve_followers(process_runtime_pointer self, const std::string& instance);
+
+/// Answers the followers whose time is over, and sets the alarm for the others.
+void release_followers(process_runtime_pointer self);
 
 } // namespace roscell

@@ -3,7 +3,7 @@
 #include "actors/core/actor_context.hpp"
 #include "actors/instances/skills/skill_program.hpp"
 #include "messages/skill.hpp"
-#include "schemas/schema_error.hpp"
+#include "schemas/validator.hpp"
 
 #include <filesystem>
 #include <map>

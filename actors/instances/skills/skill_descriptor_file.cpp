@@ -3,7 +3,6 @@
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/instances/limits.hpp"
 #include "schemas/document.hpp"
-#include "schemas/document_place.hpp"
 #include "schemas/message_catalogue.hpp"
 
 #include <exception>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "messages/skill_descriptor.hpp"
+#include "messages/skill.hpp"
 #include "schemas/document.hpp"
-#include "schemas/schema_error.hpp"
+#include "schemas/validator.hpp"
 
 #include <filesystem>
 #include <string>

@@ -3,7 +3,7 @@
 #include "actors/edge/disk/folder_hash.hpp"
 #include "actors/edge/engine/program_libraries.hpp"
 #include "actors/edge/host/host_probe.hpp"
-#include "actors/edge/program/elf_properties.hpp"
+#include "actors/edge/process/elf_properties.hpp"
 #include "actors/instances/skills/skill_descriptor_file.hpp"
 
 #include <sys/utsname.h>

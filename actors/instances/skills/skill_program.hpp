@@ -2,7 +2,7 @@
 
 #include "actors/edge/io/edge_error.hpp"
 #include "messages/inside/runtime.hpp"
-#include "messages/skill_descriptor.hpp"
+#include "messages/skill.hpp"
 
 #include <filesystem>
 #include <string>

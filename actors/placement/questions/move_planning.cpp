@@ -1,4 +1,4 @@
-#include "actors/placement/questions/move_planning.hpp"
+#include "actors/placement/questions/task_allocation.hpp"
 
 #include "actors/placement/questions/search_problem.hpp"
 #include "actors/placement/search/running/better_moves.hpp"

@@ -1,14 +1,17 @@
 #pragma once
 
 #include "actors/placement/limits.hpp"
+#include "actors/placement/search/problem.hpp"
 #include "messages/allocation_report.hpp"
 #include "messages/failure.hpp"
 #include "messages/inside/placement.hpp"
 
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace roscell {
 
@@ -28,5 +31,27 @@ allocate(const allocate_task& asked,
 /// `resolve_steps`.
 std::variant<task_plan, failure> allocate_offline(const plan_document& document,
                                                   const std::string& why = {});
+
+/// What is preempted for a task, and the problem without it.
+struct task_eviction {
+  allocation::problem problem;
+  std::vector<preempted_instance> preempted;
+  bool optimal = true; ///< No cheaper one does.
+};
+
+/// What must go before a task fits: instances whose priority is lower than that
+/// of each of its steps. Nothing if that is not enough, or not found in time.
+std::optional<task_eviction> evict_for(const allocate_task& asked,
+                                       const allocation::problem& problem,
+                                       const allocation::limits& limits);
+
+/// Moves that bring running steps nearer to the optimum of equations (1) to
+/// (4), all steps taken as one task. Steps that run where a new one could not
+/// be placed stay there. `cancelled` may be empty. Errors: conflict (they do
+/// not fit as they run).
+std::variant<moves_planned, failure>
+plan_better_moves(const plan_moves& asked,
+                  std::chrono::milliseconds budget = limits::task::move_budget,
+                  const std::function<bool()>& cancelled = {});
 
 } // namespace roscell

@@ -2,7 +2,6 @@
 
 #include "actors/placement/reading/stream_names.hpp"
 #include "messages/stream_protocols.hpp"
-#include "schemas/closest_word.hpp"
 #include "schemas/text_excerpt.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "messages/skill.hpp"
 #include "messages/task.hpp"
-#include "schemas/schema_error.hpp"
+#include "schemas/validator.hpp"
 
 #include <string>
 #include <vector>

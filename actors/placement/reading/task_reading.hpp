@@ -3,6 +3,8 @@
 #include "actors/placement/reading/short_forms.hpp"
 #include "messages/failure.hpp"
 #include "messages/inside/placement.hpp"
+#include "schemas/parameters/declared_parameter.hpp"
+#include "schemas/validator.hpp"
 
 #include <optional>
 #include <string>
@@ -33,5 +35,18 @@ std::variant<task_reading, failure>
 read_task(const std::string& task, const std::vector<task_step>& pipeline,
           const reading_context& cell,
           const std::string& pointer = "/pipeline");
+
+/// A step with the values that its parameters have: the declared defaults, and
+/// what the step gives.
+struct valued_step {
+  const written_step& written;
+  json values;
+};
+
+/// Where one step sends images in an encoding that another, which reads them,
+/// does not take. What a step sends is its parameter `encoding`, what it takes
+/// its parameter `encodings`, a list; a step without them sends and takes any.
+std::vector<schema_error>
+encoding_errors(const std::vector<valued_step>& steps);
 
 } // namespace roscell

@@ -2,7 +2,9 @@
 
 #include "actors/placement/reading/short_forms.hpp"
 #include "messages/inside/placement.hpp"
+#include "messages/instance.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -30,5 +32,12 @@ wiring find_wiring(const std::string& task,
                    const std::vector<written_step>& steps,
                    const std::vector<deployed_end>& cell,
                    const std::optional<std::vector<io_endpoint>>& topics = {});
+
+/// For each of these instances the ones that must run before it starts: those
+/// that write a file which it reads, because a file that is not there is an
+/// error. Nobody waits for itself in the end: where instances read each other's
+/// files, those that come first in the list do not wait.
+std::vector<std::vector<std::size_t>>
+start_order(const std::vector<instance_spec>& specs);
 
 } // namespace roscell

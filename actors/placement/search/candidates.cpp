@@ -1,6 +1,5 @@
 #include "actors/placement/search/candidates.hpp"
 
-#include "actors/placement/search/constraints.hpp"
 #include "actors/placement/search/report/text.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "actors/placement/search/constraints.hpp"
+#include "actors/placement/search/candidates.hpp"
 
 #include "actors/placement/search/report/text.hpp"
 

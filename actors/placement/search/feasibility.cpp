@@ -1,4 +1,4 @@
-#include "actors/placement/search/feasibility.hpp"
+#include "actors/placement/search/search.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,6 @@
 #include "actors/placement/search/assignment.hpp"
 #include "actors/placement/search/bounds/slice_bound.hpp"
 #include "actors/placement/search/groups.hpp"
-#include "actors/placement/search/watch.hpp"
 
 #include <cstddef>
 #include <cstdint>

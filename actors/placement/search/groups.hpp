@@ -1,7 +1,6 @@
 #pragma once
 
 #include "actors/placement/search/assignment.hpp"
-#include "actors/placement/search/watch.hpp"
 
 #include <cstddef>
 #include <cstdint>

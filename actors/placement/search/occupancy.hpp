@@ -1,7 +1,6 @@
 #pragma once
 
 #include "actors/placement/search/problem.hpp"
-#include "actors/placement/search/result.hpp"
 
 #include <array>
 #include <cstddef>

@@ -1,6 +1,10 @@
 #include "actors/requests/cost/cost_ring.hpp"
 
+#include "actors/edge/host/own_process.hpp"
+
 #include <algorithm>
+#include <map>
+#include <string>
 #include <utility>
 
 namespace roscell {
@@ -132,6 +136,45 @@ cost_window cost_ring::window_of(const track& x) const {
       result.peers.push_back({last_.peers[i].peer, sum.peers[i].sent_bytes,
                               sum.peers[i].received_bytes});
   return result;
+}
+
+namespace {
+
+std::vector<peer_traffic> session_traffic(const metric_table& table) {
+  std::map<std::string, peer_traffic> peers;
+  for (const auto& x : table.samples(metric::session_sent_bytes))
+    peers[x.labels.front()].sent_bytes = x.sum;
+  for (const auto& x : table.samples(metric::session_received_bytes))
+    peers[x.labels.front()].received_bytes = x.sum;
+  std::vector<peer_traffic> result;
+  for (auto& [name, traffic] : peers) {
+    traffic.peer = name;
+    result.push_back(traffic);
+  }
+  return result;
+}
+
+} // namespace
+
+cost_reading read_cost(const std::shared_ptr<metric_table>& table) {
+  const auto own = read_own_cost();
+  cost_reading result{own.cpu_seconds, own.pss_bytes, own.written_bytes, {}};
+  if (table)
+    result.peers = session_traffic(*table);
+  return result;
+}
+
+cost_meter::cost_meter(reader read) : read_(std::move(read)) {}
+
+void cost_meter::mark(cost_ring::time_point now) {
+  std::lock_guard guard{mutex_};
+  ring_.mark(now, read_());
+}
+
+std::vector<cost_window> cost_meter::windows(cost_ring::time_point now) {
+  std::lock_guard guard{mutex_};
+  ring_.mark(now, read_());
+  return ring_.windows();
 }
 
 } // namespace roscell

@@ -1,15 +1,31 @@
 #pragma once
 
-#include "actors/requests/cost/cost_reading.hpp"
+#include "actors/core/metric_table.hpp"
+#include "messages/insight/node_cost.hpp"
 
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <functional>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace roscell {
+
+/// What the node's process has cost so far.
+struct cost_reading {
+  double cpu_s = 0;
+  double pss_bytes = 0; ///< At this moment.
+  double written_bytes = 0;
+  std::vector<peer_traffic> peers;
+};
+
+/// Reads the process, and from the table what went over sessions; null: nothing
+/// did.
+cost_reading read_cost(const std::shared_ptr<metric_table>& table);
 
 /// What a node has cost in the last minute, hour and day. Told the time and
 /// what it has cost so far. Each of the three is the sum of some slices that
@@ -72,6 +88,25 @@ private:
                                 {"day", std::chrono::hours{4}, 6}}};
   std::optional<time_point> last_at_;
   cost_reading last_; ///< Its peers by place, the first of which is "other".
+};
+
+/// The ring of a node, and what it is told by. Any thread may mark and ask.
+class cost_meter {
+public:
+  using reader = std::function<cost_reading()>;
+
+  explicit cost_meter(reader read = [] { return cost_reading{}; });
+
+  void mark(cost_ring::time_point now);
+
+  /// What it has cost until now.
+  std::vector<cost_window> windows(cost_ring::time_point now);
+
+private:
+  reader read_;
+  /// Held while reading: two readings must not be told in the wrong order.
+  std::mutex mutex_;
+  cost_ring ring_;
 };
 
 } // namespace roscell

@@ -2,7 +2,7 @@
 
 #include "actors/core/actor_context.hpp"
 #include "actors/core/alarm.hpp"
-#include "actors/requests/cost/cost_meter.hpp"
+#include "actors/requests/cost/cost_ring.hpp"
 #include "messages/messages.hpp"
 
 #include <cstdint>

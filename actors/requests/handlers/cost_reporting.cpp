@@ -1,8 +1,6 @@
-#include "actors/requests/handlers/cost_reporting.hpp"
+#include "actors/requests/handlers/insight.hpp"
 
 #include "actors/core/answer_limits.hpp"
-#include "actors/core/relayed_requests.hpp"
-#include "schemas/decode.hpp"
 #include "schemas/document.hpp"
 
 #include <memory>

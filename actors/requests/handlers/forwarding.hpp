@@ -1,14 +1,26 @@
 #pragma once
 
-#include "actors/requests/handlers/coordinator_asking.hpp"
-#include "actors/requests/request_registry.hpp"
+#include "actors/requests/handler_pipeline.hpp"
+#include "actors/requests/request_context.hpp"
+#include "messages/failure.hpp"
 
 #include <chrono>
+#include <functional>
 #include <utility>
 #include <variant>
 
-/// Requests that one actor of the node answers as they are.
 namespace roscell {
+
+/// Asks the coordinator of a member what the node itself does not know. What it
+/// has refused for another reason, and what nobody of the cell knows, ends in
+/// the node's own refusal.
+/// @param known the node's own refusal.
+/// @param done called once, with the reply or the refusal.
+void ask_coordinator(const request_context& context, const json& request,
+                     const failure& known,
+                     std::function<void(std::variant<json, failure>)> done);
+
+// Requests that one actor of the node answers as they are.
 
 /// Hands the request to `whom` and waits as long as `timeout` says.
 template <class Request, class Reply, class Handle, class Timeout>

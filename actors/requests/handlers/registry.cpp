@@ -1,14 +1,9 @@
-#include "actors/requests/handlers/registry.hpp"
+#include "actors/requests/handler_pipeline.hpp"
 
 #include "actors/core/answer_limits.hpp"
 #include "actors/placement/limits.hpp"
-#include "actors/requests/handlers/actor_inspecting.hpp"
-#include "actors/requests/handlers/cost_reporting.hpp"
 #include "actors/requests/handlers/forwarding.hpp"
-#include "actors/requests/handlers/host_checking.hpp"
 #include "actors/requests/handlers/insight.hpp"
-#include "actors/requests/handlers/local_skills.hpp"
-#include "actors/requests/handlers/task_change_waiting.hpp"
 #include "actors/requests/handlers/task_pipeline.hpp"
 #include "actors/requests/limits.hpp"
 

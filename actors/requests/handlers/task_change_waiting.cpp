@@ -1,4 +1,4 @@
-#include "actors/requests/handlers/task_change_waiting.hpp"
+#include "actors/requests/handlers/task_pipeline.hpp"
 
 #include "actors/core/alarm.hpp"
 #include "actors/core/answer_limits.hpp"

@@ -1,12 +1,12 @@
 #include "actors/requests/handlers/task_pipeline.hpp"
 
 #include "actors/core/answer_limits.hpp"
-#include "actors/core/wall_clock.hpp"
+#include "actors/core/clocks.hpp"
 #include "actors/core/watching.hpp"
 #include "actors/placement/instance_specs.hpp"
 #include "actors/placement/limits.hpp"
-#include "actors/placement/reading/start_order.hpp"
 #include "actors/placement/reading/task_reading.hpp"
+#include "actors/placement/reading/wiring.hpp"
 #include "actors/requests/limits.hpp"
 #include "messages/event_kinds.hpp"
 

@@ -1,4 +1,4 @@
-#include "actors/requests/metrics/cell_metrics.hpp"
+#include "actors/requests/metrics/scrape.hpp"
 
 #include "actors/core/program_version.hpp"
 

@@ -1,9 +1,8 @@
 #include "actors/requests/metrics/scrape.hpp"
 
 #include "actors/core/answer_limits.hpp"
-#include "actors/edge/host/own_cost.hpp"
+#include "actors/edge/host/own_process.hpp"
 #include "actors/requests/limits.hpp"
-#include "actors/requests/metrics/cell_metrics.hpp"
 
 #include <optional>
 #include <string>

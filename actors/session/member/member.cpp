@@ -1,10 +1,8 @@
 #include "actors/session/member/member.hpp"
 
 #include "actors/core/answer_limits.hpp"
-#include "actors/core/relayed_requests.hpp"
 #include "actors/core/watching.hpp"
 #include "actors/session/limits.hpp"
-#include "actors/session/member/member_steps.hpp"
 #include "schemas/document.hpp"
 
 #include <caf/typed_response_promise.hpp>

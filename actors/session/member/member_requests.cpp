@@ -1,10 +1,9 @@
 #include "actors/core/answer_limits.hpp"
-#include "actors/core/wall_clock.hpp"
-#include "actors/session/forwarded_requests.hpp"
+#include "actors/core/clocks.hpp"
 #include "actors/session/limits.hpp"
-#include "actors/session/long_starts.hpp"
-#include "actors/session/member/member_steps.hpp"
-#include "actors/session/session_envelope.hpp"
+#include "actors/session/member/member.hpp"
+#include "actors/session/session_calls.hpp"
+#include "actors/session/session_exchange.hpp"
 
 #include <utility>
 #include <variant>

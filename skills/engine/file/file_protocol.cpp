@@ -1,11 +1,9 @@
 #include "skills/engine/file/file_protocol.hpp"
 
 #include "roscell/skill/errors.hpp"
+#include "skills/engine/file/file_output.hpp"
 #include "skills/engine/file/folder_input.hpp"
-#include "skills/engine/file/folder_output.hpp"
 #include "skills/engine/file/line_input.hpp"
-#include "skills/engine/file/line_output.hpp"
-#include "skills/engine/file/whole_file_input.hpp"
 
 #include <sys/stat.h>
 

@@ -1,6 +1,7 @@
 #include "skills/engine/life/processing_times.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 
@@ -70,6 +71,94 @@ processing_times::duration processing_times::quantile(double q) const {
       return duration{value_of(i)};
   }
   return duration{0};
+}
+
+namespace {
+
+std::string us(processing_times::duration time) {
+  using std::chrono::microseconds;
+  return std::to_string(std::chrono::duration_cast<microseconds>(time).count());
+}
+
+} // namespace
+
+std::string frame_text(const processing_times& times, std::uint64_t dropped,
+                       std::uint64_t failed) {
+  constexpr std::uint64_t ns_in_us = 1000;
+  const auto all = times.tallied();
+  auto result = "frames=" + std::to_string(all.count) + " dropped="
+                + std::to_string(dropped) + " failed=" + std::to_string(failed)
+                + " median_us=" + us(times.quantile(0.5))
+                + " p99_us=" + us(times.quantile(0.99))
+                + " times_us=" + std::to_string(all.sum_ns / ns_in_us);
+  const char* before = " times=";
+  for (const auto count : all.counts) {
+    result += before + std::to_string(count);
+    before = ",";
+  }
+  return result;
+}
+
+namespace {
+
+/// The first frames of a camera may overtake what is needed to use them.
+constexpr std::uint64_t patient_frames = 10;
+
+} // namespace
+
+input_work::input_work(const std::vector<std::string>& data_types) {
+  for (const auto& type : data_types)
+    inputs_.emplace_back().data_type = type;
+  if (!data_types.empty())
+    main_type_ = data_types.front();
+}
+
+void input_work::set_main(std::size_t input) {
+  std::lock_guard guard{mutex_};
+  main_type_ = inputs_.at(input).data_type;
+}
+
+bool input_work::is_main(std::size_t input) const {
+  std::lock_guard guard{mutex_};
+  return inputs_[input].data_type == main_type_;
+}
+
+void input_work::add(std::size_t input, const handled_frame& x) {
+  std::lock_guard guard{mutex_};
+  auto& to = inputs_[input];
+  to.failed += x.failed ? 1 : 0;
+  to.failed_in_row = x.failed ? to.failed_in_row + 1 : 0;
+  to.fruitless = x.results == 0 ? to.fruitless + 1 : 0;
+  to.was_fruitful = to.was_fruitful || x.results > 0;
+  to.reason = x.reason;
+  if (x.failed)
+    return;
+  to.times.add(x.time);
+  if (to.data_type == main_type_)
+    main_times_.add(x.time);
+}
+
+std::uint64_t input_work::failed(std::size_t input) const {
+  std::lock_guard guard{mutex_};
+  return inputs_[input].failed;
+}
+
+std::uint64_t input_work::failed_in_row(std::size_t input) const {
+  std::lock_guard guard{mutex_};
+  return inputs_[input].failed_in_row;
+}
+
+std::string input_work::remark() const {
+  std::lock_guard guard{mutex_};
+  for (const auto& x : inputs_) {
+    if (x.data_type != main_type_ || x.fruitless < patient_frames
+        || (x.was_fruitful && x.reason.empty()))
+      continue;
+    return std::to_string(x.fruitless) + " frames in"
+           + (x.was_fruitful ? " since the last one out" : ", none out")
+           + (x.reason.empty() ? "" : ": " + x.reason);
+  }
+  return {};
 }
 
 } // namespace roscell::engine

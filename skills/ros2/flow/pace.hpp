@@ -2,10 +2,15 @@
 
 #include "roscell/skill/stop_event.hpp"
 
+#include <fastdds/rtps/transport/TransportDescriptorInterface.h>
+
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 
 namespace roscell::ros2 {
@@ -54,5 +59,20 @@ private:
   writer_pace::clock::time_point due_{}; // Of Fast DDS's sending lock.
   const engine::stop_event never_;
 };
+
+// INTERNAL to this folder.
+
+using transport_ptr =
+    std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface>;
+
+/// Called for each port on which messages to this host alone are heard. It
+/// must live as long as what the transport belongs to.
+using port_handler = std::function<void(std::uint32_t port)>;
+
+/// Lets the pacer decide when each datagram leaves by `lower`, and tells of the
+/// ports that `lower` has opened: Fast DDS goes on without one where it finds
+/// none that is free.
+transport_ptr paced(transport_ptr lower, std::shared_ptr<datagram_pacer> pacer,
+                    port_handler on_listening);
 
 } // namespace roscell::ros2

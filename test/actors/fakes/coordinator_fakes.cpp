@@ -1,7 +1,7 @@
 #include "test/actors/fakes/coordinator_fakes.hpp"
 
 #include "actors/placement/reservation.hpp"
-#include "actors/requests/handlers/registry.hpp"
+#include "actors/requests/handler_pipeline.hpp"
 #include "test/actors/fakes/planner.hpp"
 
 #include <algorithm>

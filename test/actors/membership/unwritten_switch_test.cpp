@@ -1,6 +1,6 @@
 #include "test/actors/fakes/cell_fakes.hpp"
 
-#include "actors/session/registration/registration_order.hpp"
+#include "actors/session/registration_client.hpp"
 #include "messages/failure.hpp"
 
 /// A node that is told to go elsewhere, and cannot write that down.

@@ -1,6 +1,6 @@
 #include "actors/node/node_data.hpp"
 
-#include "actors/edge/site/site_token_file.hpp"
+#include "actors/edge/session/site_token.hpp"
 #include "messages/failure.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 

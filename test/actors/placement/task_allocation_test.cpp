@@ -1,5 +1,5 @@
 #include "actors/placement/questions/task_allocation.hpp"
-#include "schemas/decode.hpp"
+#include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
 
 #include <catch2/catch.hpp>

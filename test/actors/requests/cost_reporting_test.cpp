@@ -1,7 +1,6 @@
 #include "actors/core/answer_limits.hpp"
-#include "actors/requests/handlers/cost_reporting.hpp"
+#include "actors/requests/handlers/insight.hpp"
 
-#include "actors/core/relayed_requests.hpp"
 #include "test/actors/requests/processing.hpp"
 
 #include <functional>

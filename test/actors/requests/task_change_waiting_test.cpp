@@ -1,4 +1,4 @@
-#include "actors/requests/handlers/task_change_waiting.hpp"
+#include "actors/requests/handlers/task_pipeline.hpp"
 #include "actors/requests/limits.hpp"
 #include "actors/session/limits.hpp"
 

@@ -1,6 +1,6 @@
-#include "actors/requests/timed_log.hpp"
+#include "actors/requests/rest_streams.hpp"
 
-#include "schemas/base64.hpp"
+#include "schemas/utf8.hpp"
 
 #include <catch2/catch.hpp>
 

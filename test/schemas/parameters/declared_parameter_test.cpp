@@ -1,4 +1,4 @@
-#include "schemas/parameters/engine_parameters.hpp"
+#include "schemas/parameters/declared_parameter.hpp"
 
 #include <catch2/catch.hpp>
 

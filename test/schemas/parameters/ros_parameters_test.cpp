@@ -1,4 +1,4 @@
-#include "schemas/parameters/ros_parameters.hpp"
+#include "schemas/parameters/declared_parameter.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "skills/ros2/names.hpp"
+#include "skills/ros2/participant_config.hpp"
 #include "skills/ros2/serialized_type.hpp"
 #include "test/vision/encodings.hpp"
 

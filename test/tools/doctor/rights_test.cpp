@@ -1,6 +1,6 @@
 #include "tools/roscell/doctor/host/rights.hpp"
 
-#include "actors/edge/site/site_token_file.hpp"
+#include "actors/edge/session/site_token.hpp"
 #include "tools/roscell/client/open_skills.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "tools/roscell/insight/cost_view.hpp"
+#include "tools/roscell/insight/insight_views.hpp"
 
 #include "test/printed_text.hpp"
 

@@ -1,4 +1,4 @@
-#include "tools/roscell/insight/state_text.hpp"
+#include "tools/roscell/insight/insight_views.hpp"
 
 #include <catch2/catch.hpp>
 

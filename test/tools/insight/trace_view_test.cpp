@@ -1,4 +1,4 @@
-#include "tools/roscell/insight/trace_view.hpp"
+#include "tools/roscell/insight/insight_views.hpp"
 
 #include "test/words.hpp"
 

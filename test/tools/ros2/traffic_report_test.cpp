@@ -1,4 +1,4 @@
-#include "tools/roscell/ros2/traffic_report.hpp"
+#include "tools/roscell/ros2/traffic_meter.hpp"
 
 #include <catch2/catch.hpp>
 

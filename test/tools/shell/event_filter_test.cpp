@@ -1,4 +1,4 @@
-#include "tools/roscell/shell/builtins/event_filter.hpp"
+#include "tools/roscell/shell/follower.hpp"
 
 #include <catch2/catch.hpp>
 

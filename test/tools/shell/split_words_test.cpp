@@ -1,7 +1,5 @@
 #include "tools/roscell/shell/split_words.hpp"
 
-#include "tools/roscell/shell_word.hpp"
-
 #include <catch2/catch.hpp>
 
 using namespace roscell::cli;

@@ -1,7 +1,6 @@
 #include "client/cell_model.hpp"
 
-#include "client/stale_answers.hpp"
-#include "tools/roscell/top/problems.hpp"
+#include "tools/roscell/top/viewer.hpp"
 
 #include <catch2/catch.hpp>
 

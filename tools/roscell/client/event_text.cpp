@@ -1,6 +1,6 @@
 #include "tools/roscell/client/event_text.hpp"
 
-#include "actors/edge/io/time_text.hpp"
+#include "actors/edge/io/node_time.hpp"
 #include "messages/event_kinds.hpp"
 #include "tools/roscell/view/format.hpp"
 

@@ -1,6 +1,6 @@
 #include "tools/roscell/client/find_things.hpp"
 
-#include "schemas/closest_word.hpp"
+#include "schemas/text_excerpt.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
 
@@ -8,6 +8,7 @@
 #include <iterator>
 #include <set>
 #include <string_view>
+#include <utility>
 
 namespace roscell::cli {
 
@@ -155,6 +156,48 @@ std::string kept_log_text(const kept_log& log, int64_t now_unix_ms) {
     result += ", exit code " + std::to_string(log.exit_code);
   return log.reason.empty() ? result
                             : result + " (" + printable(log.reason) + ")";
+}
+
+known_cell ask_for_cell(const node_client& node) {
+  known_cell result;
+  result.asked = node.get("/v1/node").get<node_description>();
+  result.cell = result.asked.role == node_role::coordinator
+                    ? node.get("/v1/cell").get<cell_description>()
+                    : cell_around(result.asked);
+  result.instances =
+      node.get("/v1/instances").get<instance_description>().instances;
+  result.skills = node.get("/v1/skills").get<skill_list>();
+  result.events = kept_events_of(node);
+  return result;
+}
+
+std::vector<instance_row> instances_in_cell(const node_client& node) {
+  std::vector<instance_row> result;
+  try {
+    const auto known = node.get("/v1/tasks").get<task_description>();
+    for (const auto& task : known.tasks)
+      result.insert(result.end(), task.instances.begin(), task.instances.end());
+  } catch (const refused&) {
+    // A node in no cell has told all that it knows.
+  }
+  return result;
+}
+
+bool add_cell_of_member(const node_client& node, known_cell& known) {
+  if (known.asked.role == node_role::coordinator || known.asked.cell.empty())
+    return false;
+  try {
+    known.cell = node.get("/v1/cell").get<cell_description>();
+  } catch (const refused&) {
+    return false;
+  }
+  for (auto& row : instances_in_cell(node))
+    if (std::none_of(known.instances.begin(), known.instances.end(),
+                     [&](const auto& x) {
+                       return x.spec.instance == row.spec.instance;
+                     }))
+      known.instances.push_back(std::move(row));
+  return true;
 }
 
 } // namespace roscell::cli

@@ -2,6 +2,7 @@
 
 #include "client/known_cell.hpp"
 #include "messages/kept_log.hpp"
+#include "tools/roscell/client/node_client.hpp"
 
 #include <cstdint>
 #include <string>
@@ -33,5 +34,16 @@ std::vector<kept_log> find_kept_logs(const std::vector<kept_log>& known,
 
 /// "i on node belt: stopped 5m02s ago (removed)".
 std::string kept_log_text(const kept_log& log, int64_t now_unix_ms);
+
+known_cell ask_for_cell(const node_client& node);
+
+/// Adds what the coordinator knows of its cell to what a member has said. False
+/// if there is no more to know: the node is the coordinator itself, or is in no
+/// cell.
+bool add_cell_of_member(const node_client& node, known_cell& known);
+
+/// The instances of all tasks of the cell, as its coordinator knows them; none
+/// if it cannot be asked.
+std::vector<instance_row> instances_in_cell(const node_client& node);
 
 } // namespace roscell::cli

@@ -4,7 +4,7 @@
 #include "client/event_follower.hpp"
 #include "messages/codec/json_codec.hpp"
 #include "messages/event.hpp"
-#include "messages/inside/history.hpp"
+#include "messages/inside/storage.hpp"
 #include "tools/roscell/client/target.hpp"
 #include "tools/roscell/exit_code.hpp"
 

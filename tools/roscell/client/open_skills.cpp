@@ -1,8 +1,8 @@
 #include "tools/roscell/client/open_skills.hpp"
 
-#include "actors/edge/disk/trusted_path.hpp"
-#include "actors/edge/host/installed_files.hpp"
-#include "tools/roscell/shell_word.hpp"
+#include "actors/edge/disk/file_rights.hpp"
+#include "actors/edge/host/own_process.hpp"
+#include "tools/roscell/shell/split_words.hpp"
 
 #include <unistd.h>
 

@@ -1,7 +1,6 @@
 #include "tools/roscell/client/target.hpp"
 
-#include "actors/edge/site/limits.hpp"
-#include "tools/roscell/client/open_secret.hpp"
+#include "actors/edge/session/limits.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
@@ -17,6 +16,7 @@
 #include <fstream>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
 
 namespace roscell::cli {
 
@@ -193,6 +193,17 @@ std::string find_token(const fs::path& file, const target& to) {
     if (auto token = read_token(dir / "token"); token && !token->empty())
       return checked(*token, (dir / "token").string());
   return {};
+}
+
+namespace fs = std::filesystem;
+
+std::string open_secret_warning(const fs::path& file) {
+  std::error_code problem;
+  const auto mode = fs::status(file, problem).permissions();
+  if (problem || (mode & fs::perms::others_read) == fs::perms::none)
+    return {};
+  return "every user of this machine can read the token in " + file.string()
+         + "; chmod 600 " + file.string();
 }
 
 } // namespace roscell::cli

@@ -41,4 +41,8 @@ target default_target();
 /// if `file` cannot be read or what was found cannot be a token.
 std::string find_token(const std::filesystem::path& file, const target& to);
 
+/// That everybody on this machine can read a file that holds a secret, and the
+/// remedy. Empty if that is not so.
+std::string open_secret_warning(const std::filesystem::path& file);
+
 } // namespace roscell::cli

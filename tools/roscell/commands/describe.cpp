@@ -1,5 +1,4 @@
 #include "messages/instance.hpp"
-#include "tools/roscell/client/ask_cell.hpp"
 #include "tools/roscell/client/find_things.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"

@@ -1,7 +1,7 @@
 #include "tools/roscell/commands/log_printer.hpp"
 
 #include "actors/edge/http/http_target.hpp"
-#include "actors/requests/timed_log.hpp"
+#include "actors/requests/rest_streams.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <string_view>

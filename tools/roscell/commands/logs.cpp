@@ -1,6 +1,5 @@
 #include "messages/instance.hpp"
 #include "messages/kept_log.hpp"
-#include "tools/roscell/client/ask_cell.hpp"
 #include "tools/roscell/client/find_things.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
@@ -8,7 +7,7 @@
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/kept_logs_view.hpp"
+#include "tools/roscell/view/log_lines.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-#include "actors/node/start/granted.hpp"
+#include "actors/node/config_checks.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/daemon/config_file.hpp"
 #include "tools/roscell/daemon/node_options.hpp"

@@ -1,5 +1,4 @@
 #include "actors/placement/questions/task_allocation.hpp"
-#include "schemas/decode.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
 #include "tools/roscell/client/node_client.hpp"

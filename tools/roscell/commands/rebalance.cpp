@@ -5,7 +5,7 @@
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
-#include "tools/roscell/tasks/rebalance_view.hpp"
+#include "tools/roscell/tasks/task_view.hpp"
 #include "tools/roscell/tasks/wait_finished.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"

@@ -4,8 +4,8 @@
 #include "tools/roscell/commands/watch.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
-#include "tools/roscell/ros2/topics_view.hpp"
-#include "tools/roscell/tasks/history.hpp"
+#include "tools/roscell/ros2/found_topic.hpp"
+#include "tools/roscell/tasks/task_view.hpp"
 #include "tools/roscell/view/formation_view.hpp"
 #include "tools/roscell/view/terminal.hpp"
 

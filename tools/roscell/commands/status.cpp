@@ -2,7 +2,7 @@
 #include "tools/roscell/commands/show.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
-#include "tools/roscell/insight/cost_view.hpp"
+#include "tools/roscell/insight/insight_views.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>

@@ -2,7 +2,6 @@
 
 #include "tools/roscell/completion/option_values.hpp"
 #include "tools/roscell/shell/split_words.hpp"
-#include "tools/roscell/shell_word.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -36,3 +36,14 @@ std::vector<CLI::Option*> options_of_file(CLI::App& command);
 void take_config(CLI::App& command, const std::filesystem::path& file);
 
 } // namespace roscell::cli
+namespace CLI {
+class App;
+} // namespace CLI
+
+namespace roscell::cli {
+
+/// A file for `--config` of this command that has every option, each commented
+/// out below what its help says.
+std::string config_template(CLI::App& command);
+
+} // namespace roscell::cli

@@ -1,7 +1,7 @@
 #include "tools/roscell/daemon/journal.hpp"
 
 #include "actors/core/watching.hpp"
-#include "actors/node/event_loudness.hpp"
+#include "actors/node/event_series.hpp"
 #include "messages/event_kinds.hpp"
 #include "messages/messages.hpp"
 #include "tools/roscell/client/event_text.hpp"

@@ -1,12 +1,14 @@
 #pragma once
 
 #include "actors/node/spawn_node.hpp"
-#include "tools/roscell/daemon/stop_signals.hpp"
+#include "tools/roscell/daemon/service_signals.hpp"
 #include "tools/roscell/exit_code.hpp"
 
 #include <caf/actor_system.hpp>
 
 #include <chrono>
+#include <functional>
+#include <string>
 
 /// The ends of a node of this process. Each waits until all of its parts have
 /// ended, but not for long, and not at all after another signal: then the
@@ -30,5 +32,15 @@ void halt(caf::actor_system& system, const running_node& node,
 /// It has failed.
 void await_failed(caf::actor_system& system, const running_node& node,
                   stop_signals& signals);
+
+/// Has the coordinator move every instance away from this node, and calls
+/// `done` once none is left, or it cannot be done, with the reason. Called in
+/// an actor, at most once.
+void drain_first(caf::actor_system& system, const running_node& node,
+                 std::function<void(const std::string& problem)> done);
+
+/// The node takes instances again, when it is back. Blocks until the
+/// coordinator knows, for some seconds at most.
+void undrain(caf::actor_system& system, const running_node& node);
 
 } // namespace roscell::cli

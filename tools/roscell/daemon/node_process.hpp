@@ -2,10 +2,9 @@
 
 #include "actors/edge/host/interfaces.hpp"
 #include "actors/node/spawn_node.hpp"
-#include "tools/roscell/daemon/address/address_watch.hpp"
+#include "tools/roscell/daemon/node_address.hpp"
 #include "tools/roscell/daemon/node_options.hpp"
-#include "tools/roscell/daemon/readiness.hpp"
-#include "tools/roscell/daemon/stop_signals.hpp"
+#include "tools/roscell/daemon/service_signals.hpp"
 #include "tools/roscell/exit_code.hpp"
 
 #include <caf/actor_system.hpp>

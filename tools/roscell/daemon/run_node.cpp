@@ -1,6 +1,6 @@
 #include "actors/edge/dds/discovery_setup.hpp"
-#include "actors/edge/host/descriptor_limit.hpp"
-#include "tools/roscell/daemon/address/interface_choice.hpp"
+#include "actors/edge/host/own_process.hpp"
+#include "tools/roscell/daemon/node_address.hpp"
 #include "tools/roscell/daemon/node_options.hpp"
 #include "tools/roscell/daemon/node_process.hpp"
 

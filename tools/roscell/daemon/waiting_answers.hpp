@@ -1,6 +1,6 @@
 #pragma once
 
-#include "actors/edge/disk/directory_lock.hpp"
+#include "actors/edge/disk/data_folder.hpp"
 #include "actors/edge/http/http_server.hpp"
 #include "actors/edge/io/io_thread.hpp"
 #include "roscell/node_config.hpp"

@@ -1,6 +1,6 @@
 #include "tools/roscell/dashboard/pages.hpp"
 
-#include "client/stale_answers.hpp"
+#include "client/cell_model.hpp"
 #include "tools/roscell/view/columns.hpp"
 
 namespace roscell::cli {

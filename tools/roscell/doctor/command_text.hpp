@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/roscell/shell_word.hpp"
+#include "tools/roscell/shell/split_words.hpp"
 
 #include <sys/types.h>
 

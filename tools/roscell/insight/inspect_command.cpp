@@ -1,10 +1,9 @@
-#include "messages/insight/actor_inspection.hpp"
+#include "messages/insight/examination.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
-#include "tools/roscell/insight/state_text.hpp"
-#include "tools/roscell/insight/trace_view.hpp"
+#include "tools/roscell/insight/insight_views.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
 

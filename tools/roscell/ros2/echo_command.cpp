@@ -1,6 +1,6 @@
 #include "skills/ros2/topic_listener.hpp"
 #include "tools/roscell/commands.hpp"
-#include "tools/roscell/daemon/stop_signals.hpp"
+#include "tools/roscell/daemon/service_signals.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/ros2/echo/message_value.hpp"
 #include "tools/roscell/ros2/found_topic.hpp"

@@ -1,7 +1,7 @@
 #include "tools/roscell/ros2/environment.hpp"
 
 #include "actors/edge/io/socket_address.hpp"
-#include "dds/server_ids.hpp"
+#include "dds/server_addresses.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
 

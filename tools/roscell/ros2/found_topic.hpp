@@ -4,6 +4,7 @@
 #include "skills/ros2/participant_config.hpp"
 #include "skills/ros2/topic_qos.hpp"
 #include "tools/roscell/client/node_client.hpp"
+#include "tools/roscell/view/views.hpp"
 
 #include <functional>
 #include <string>
@@ -37,5 +38,11 @@ found_topic find_topic(const node_client& node, const std::string& topic);
 
 /// Runs what listens to a topic; what DDS refuses is a command_error.
 int listen(const std::function<int()>& command);
+
+} // namespace roscell::cli
+namespace roscell::cli {
+
+/// The topics with who is at their ends; below them, what does not match.
+std::string topics_view(const topic_list& topics, const view_style& style);
 
 } // namespace roscell::cli

@@ -1,7 +1,7 @@
 #include "tools/roscell/shell/child.hpp"
 
 #include "actors/edge/io/unique_fd.hpp"
-#include "actors/edge/process/pidfd.hpp"
+#include "actors/edge/process/process_identity.hpp"
 #include "tools/roscell/child_setup.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/terminal.hpp"

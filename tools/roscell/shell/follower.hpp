@@ -1,8 +1,8 @@
 #pragma once
 
 #include "actors/edge/io/unique_fd.hpp"
+#include "messages/event.hpp"
 #include "tools/roscell/client/node_client.hpp"
-#include "tools/roscell/shell/builtins/event_filter.hpp"
 
 #include <condition_variable>
 #include <cstddef>
@@ -14,6 +14,19 @@
 #include <vector>
 
 namespace roscell::cli {
+
+/// Which events somebody wants to see. Nothing named: all of them.
+struct event_filter {
+  /// Events, or with a "*" at the end what they begin with.
+  std::vector<std::string> kinds;
+  /// Nodes, tasks, steps or instances that an event is about.
+  std::vector<std::string> subjects;
+
+  bool takes(const event& e) const;
+
+  /// "node_* of arm-1"
+  std::string words() const;
+};
 
 /// What a prompt tells of the node.
 struct node_connection_status {

@@ -1,5 +1,6 @@
 #include "tools/roscell/shell/split_words.hpp"
 
+#include <string_view>
 #include <utility>
 
 namespace roscell::cli {
@@ -85,6 +86,22 @@ std::vector<std::string> without_program(std::vector<std::string> words) {
   if (!words.empty() && words.front() == "roscell")
     words.erase(words.begin());
   return words;
+}
+
+namespace {
+
+constexpr std::string_view plain_letters =
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./:=,@%+";
+
+} // namespace
+
+std::string shell_word(const std::string& word) {
+  if (!word.empty() && word.find_first_not_of(plain_letters) == word.npos)
+    return word;
+  std::string result = "'";
+  for (const char x : word)
+    result += x == '\'' ? std::string{"'\\''"} : std::string{x};
+  return result + "'";
 }
 
 } // namespace roscell::cli

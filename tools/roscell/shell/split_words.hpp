@@ -23,4 +23,8 @@ split_line split_words(std::string_view line);
 /// The words of a line without the `roscell` that it may begin with from habit.
 std::vector<std::string> without_program(std::vector<std::string> words);
 
+/// A word as a shell has to be given it so that it stays one word and nothing
+/// in it is expanded; as it is where it may be.
+std::string shell_word(const std::string& word);
+
 } // namespace roscell::cli

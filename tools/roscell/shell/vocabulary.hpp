@@ -2,7 +2,7 @@
 
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
-#include "tools/roscell/shell/builtins/builtins.hpp"
+#include "tools/roscell/shell/builtins.hpp"
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 #include "actors/placement/reading/task_reading.hpp"
-#include "schemas/decode.hpp"
+#include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/exit_code.hpp"

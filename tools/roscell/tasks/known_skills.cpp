@@ -1,7 +1,7 @@
 #include "tools/roscell/tasks/known_skills.hpp"
 
 #include "actors/instances/skills/skill_catalogue.hpp"
-#include "schemas/closest_word.hpp"
+#include "schemas/text_excerpt.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "actors/placement/reading/short_forms.hpp"
 #include "actors/placement/reading/stream_names.hpp"
-#include "schemas/parameters/engine_parameters.hpp"
+#include "schemas/parameters/declared_parameter.hpp"
 #include "tools/roscell/tasks/known_skills.hpp"
 #include "tools/roscell/view/format.hpp"
 

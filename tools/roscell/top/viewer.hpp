@@ -1,13 +1,14 @@
 #pragma once
 
+#include "client/known_cell.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/top/follow/asker.hpp"
-#include "tools/roscell/top/follow/log_follower.hpp"
 #include "tools/roscell/top/layout/frame.hpp"
 #include "tools/roscell/top/terminal/screen.hpp"
 #include "tools/roscell/top/terminal/signals.hpp"
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -55,5 +56,10 @@ private:
   asker asker_;
   std::unique_ptr<log_follower> log_reader_;
 };
+
+/// What is wrong in a cell, a sentence each, what matters most first: nodes
+/// that are away, tasks that do not run, and instances with their reasons.
+std::vector<std::string> problems_of(const known_cell& known,
+                                     int64_t now_unix_ms);
 
 } // namespace roscell::cli::top

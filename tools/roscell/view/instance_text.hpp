@@ -1,6 +1,6 @@
 #pragma once
 
-#include "messages/stream_counts.hpp"
+#include "messages/step_end.hpp"
 #include "tools/roscell/view/table.hpp"
 #include "tools/roscell/view/views.hpp"
 

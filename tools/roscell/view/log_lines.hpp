@@ -1,5 +1,8 @@
 #pragma once
 
+#include "messages/kept_log.hpp"
+#include "tools/roscell/view/views.hpp"
+
 #include <string>
 #include <string_view>
 #include <utility>
@@ -39,5 +42,8 @@ private:
   std::string kept_;
   bool in_line_ = false;
 };
+
+/// The logs of instances that are gone, and below them what is missing.
+std::string kept_logs_view(const kept_logs& logs, const view_style& style);
 
 } // namespace roscell::cli

@@ -1,7 +1,7 @@
 #include "tools/roscell/view/marked_errors.hpp"
 
 #include "messages/failure.hpp"
-#include "schemas/document_place.hpp"
+#include "schemas/document.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <algorithm>

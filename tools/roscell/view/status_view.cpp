@@ -1,5 +1,4 @@
 #include "tools/roscell/view/describe/page.hpp"
-#include "tools/roscell/view/describe/parts.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/views.hpp"
 

@@ -1,7 +1,6 @@
 #include "actors/edge/dds/lives/discovery_guard.hpp"
 
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
-#include "actors/edge/dds/rtps/heartbeats.hpp"
 
 #include <chrono>
 #include <utility>

@@ -1,10 +1,8 @@
 #pragma once
 
-#include "actors/edge/dds/lives/introduction_pacing.hpp"
-#include "actors/edge/dds/lives/number_shift.hpp"
+#include "actors/edge/dds/lives/number_reserve.hpp"
 #include "actors/edge/dds/lives/participant_table.hpp"
 #include "actors/edge/dds/lives/server_lives.hpp"
-#include "actors/edge/dds/lives/speaker_lives.hpp"
 #include "actors/edge/dds/rtps/participant_news.hpp"
 #include "actors/edge/dds/rtps/probe_responder.hpp"
 

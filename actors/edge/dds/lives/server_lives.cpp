@@ -1,6 +1,6 @@
 #include "actors/edge/dds/lives/server_lives.hpp"
 
-#include "actors/edge/dds/rtps/submessages.hpp"
+#include "actors/edge/dds/rtps/rtps_messages.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -133,6 +133,21 @@ bool server_lives::let_out(std::uint8_t* datagram, std::size_t size) const {
     std::copy(first.begin(), first.end(), at + life_at);
   });
   return lives;
+}
+
+bool introduction_pacing::ask(std::uint8_t id, time_point now) {
+  auto& x = paces_[id];
+  if (now < x.next)
+    return false;
+  if (now >= x.next + longest_pause)
+    x.pause = first_pause;
+  x.next = now + x.pause;
+  x.pause = std::min(2 * x.pause, longest_pause);
+  return true;
+}
+
+void introduction_pacing::forget(std::uint8_t id) {
+  paces_[id] = {};
 }
 
 } // namespace roscell

@@ -1,14 +1,15 @@
 #pragma once
 
-#include "dds/server_ids.hpp"
+#include "dds/server_addresses.hpp"
+
+#include <netinet/in.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <netinet/in.h>
 
 namespace roscell {
 
@@ -50,5 +51,44 @@ std::optional<guid_prefix> probe_answer(const std::uint8_t* datagram,
 
 /// So long a server remembers a probe whose farewell got lost.
 constexpr std::uint32_t probe_lease_seconds = 5;
+
+/// One thing that a participant of ours noticed about another participant.
+struct sighting {
+  enum class kind {
+    appeared, ///< It was found.
+    changed,  ///< Its announcement changed.
+    left,     ///< It said that it goes.
+    lost,     ///< It was silent for its lease.
+  };
+
+  kind what = kind::appeared;
+  guid_prefix prefix{};
+  std::string name;         ///< The participant's name, at most 255 bytes.
+  std::string announcement; ///< Its USER_DATA, empty if over the limit.
+};
+
+/// What a discovery server says of itself to who asks.
+struct server_sighting {
+  std::uint8_t server_id = 0;
+  guid_prefix prefix{};
+  std::string announcement; ///< USER_DATA as it came, foreign bytes included.
+};
+
+/// Called on a thread of Fast DDS, one call at a time for one participant.
+using on_sighting = std::function<void(const sighting&)>;
+
+// INTERNAL to actors/edge/dds.
+
+/// What a server of an earlier version wants to hear before it sends its own
+/// data: the answer, number `count` of the prober, to a HEARTBEAT of its
+/// participants' writer, which asks for all that it has. Empty: `datagram`
+/// holds none that is for `self`.
+std::vector<std::uint8_t> heartbeat_answer(const guid_prefix& self,
+                                           std::uint32_t count,
+                                           std::uint8_t* datagram,
+                                           std::size_t size);
+
+/// HEARTBEATs of all writers of a discovery server: nothing is written yet.
+std::vector<std::uint8_t> first_heartbeats(const guid_prefix& server);
 
 } // namespace roscell

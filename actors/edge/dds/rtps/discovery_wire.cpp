@@ -1,6 +1,6 @@
 #include "actors/edge/dds/rtps/discovery_wire.hpp"
 
-#include "actors/edge/dds/rtps/parameter_ids.hpp"
+#include "actors/edge/dds/rtps/rtps_messages.hpp"
 
 #include <algorithm>
 #include <string_view>

@@ -1,9 +1,7 @@
 #include "actors/edge/dds/rtps/participant_news.hpp"
 
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
-#include "actors/edge/dds/rtps/parameter_ids.hpp"
-#include "actors/edge/dds/rtps/submessages.hpp"
-#include "actors/edge/dds/rtps/wire_numbers.hpp"
+#include "actors/edge/dds/rtps/rtps_messages.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -1,9 +1,8 @@
 #include "actors/edge/http/client/http_client.hpp"
 
 #include "actors/edge/http/client/http_exchange.hpp"
-#include "actors/edge/http/client/life_probe.hpp"
 #include "actors/edge/http/limits.hpp"
-#include "actors/edge/io/line_splitter.hpp"
+#include "actors/edge/io/plain_text.hpp"
 
 #include <boost/asio/posix/stream_descriptor.hpp>
 

@@ -10,15 +10,15 @@
 #include <boost/asio/write.hpp>
 #include <boost/beast/http/error.hpp>
 
-#include <algorithm>
-#include <cerrno>
-#include <limits>
-#include <utility>
-
 #include <fcntl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <limits>
+#include <utility>
 
 namespace roscell {
 

@@ -1,4 +1,4 @@
-#include "actors/edge/http/client/life_probe.hpp"
+#include "actors/edge/http/client/http_exchange.hpp"
 
 #include <utility>
 

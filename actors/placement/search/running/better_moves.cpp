@@ -5,7 +5,6 @@
 #include "actors/placement/search/candidates.hpp"
 #include "actors/placement/search/report/validate.hpp"
 #include "actors/placement/search/search.hpp"
-#include "actors/placement/search/watch.hpp"
 
 #include <algorithm>
 #include <cmath>

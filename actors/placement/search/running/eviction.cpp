@@ -1,8 +1,8 @@
 #include "actors/placement/search/running/eviction.hpp"
 
+#include "actors/placement/search/assignment.hpp"
 #include "actors/placement/search/candidates.hpp"
 #include "actors/placement/search/running/preemption_search.hpp"
-#include "actors/placement/search/watch.hpp"
 
 #include <algorithm>
 #include <numeric>

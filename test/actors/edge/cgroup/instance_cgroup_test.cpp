@@ -1,6 +1,6 @@
 #include "actors/edge/cgroup/instance_cgroup.hpp"
 
-#include "actors/edge/cgroup/cgroup_use.hpp"
+#include "actors/edge/cgroup/cgroup_tables.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 
 #include <fcntl.h>

@@ -1,6 +1,5 @@
 #include "actors/edge/dds/limits.hpp"
 #include "actors/edge/dds/public_presence.hpp"
-#include "actors/edge/dds/site_survey.hpp"
 #include "discovery_fixture.hpp"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 #include "actors/edge/engine/engine_client.hpp"
 #include "actors/edge/engine/engine_search.hpp"
-#include "actors/edge/engine/engine_text.hpp"
 #include "actors/edge/engine/limits.hpp"
 #include "actors/edge/http/http_target.hpp"
 #include "test/actors/edge/io/edge_fixture.hpp"

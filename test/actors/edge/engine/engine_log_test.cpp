@@ -1,5 +1,5 @@
 #include "actors/edge/engine/engine_log.hpp"
-#include "actors/edge/process/limits.hpp"
+#include "actors/edge/limits.hpp"
 
 #include <catch2/catch.hpp>
 

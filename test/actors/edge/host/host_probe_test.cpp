@@ -1,5 +1,5 @@
 #include "actors/edge/host/host_probe.hpp"
-#include "actors/edge/host/limits.hpp"
+#include "actors/edge/limits.hpp"
 #include "host_probe_fixture.hpp"
 #include "test/places.hpp"
 

@@ -1,7 +1,18 @@
+#include "actors/edge/io/io_thread.hpp"
+#include "actors/edge/process/child_watch.hpp"
+#include "actors/edge/process/notify_socket.hpp"
+#include "actors/edge/process/process_identity.hpp"
+#include "actors/edge/process/process_spawner.hpp"
 #include "test/actors/edge/io/edge_fixture.hpp"
+#include "test/actors/edge/process/supervision_fixture.hpp"
 
+#include <sys/eventfd.h>
+
+#include <csignal>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <thread>
 
 namespace roscell::test::wire {
@@ -65,3 +76,147 @@ TEST_CASE("the thread can be stopped from one of its own tasks") {
 }
 
 } // namespace roscell::test::wire
+
+using namespace roscell;
+using namespace roscell::test;
+using roscell::test::wire::inbox;
+using namespace std::chrono_literals;
+
+namespace {
+
+void raise(const shared_fd& fd) {
+  const uint64_t one = 1;
+  REQUIRE(::write(fd->get(), &one, sizeof(one)) == sizeof(one));
+}
+
+uint64_t take(const shared_fd& fd) {
+  uint64_t count = 0;
+  [[maybe_unused]] const auto n = ::read(fd->get(), &count, sizeof(count));
+  return count;
+}
+
+shared_fd counter() {
+  return share(unique_fd{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)});
+}
+
+/// Runs all that was posted to the thread before.
+void flush(io_thread& io) {
+  inbox<int> done;
+  io.post([&] { done.put(0); });
+  done.take();
+}
+
+} // namespace
+
+TEST_CASE("a watched descriptor calls back each time it can be read") {
+  io_thread io;
+  inbox<uint64_t> seen;
+  const auto fd = counter();
+  raise(fd);
+  const fd_watch watch{io.core(), fd, [&] {
+                         seen.put(take(fd));
+                         return true;
+                       }};
+  CHECK(seen.take() == 1);
+  raise(fd);
+  CHECK(seen.take() == 1);
+}
+
+TEST_CASE("a watch that is over is silent and leaves the descriptor open") {
+  io_thread io;
+  inbox<uint64_t> seen;
+  const auto fd = counter();
+  SECTION("because the callback says so") {
+    const fd_watch watch{io.core(), fd, [&] {
+                           seen.put(take(fd));
+                           return false;
+                         }};
+    raise(fd);
+    CHECK(seen.take() == 1);
+    raise(fd);
+    flush(io);
+    CHECK(seen.size() == 0);
+  }
+  SECTION("because it was dropped") {
+    {
+      const fd_watch watch{io.core(), fd, [&] {
+                             seen.put(take(fd));
+                             return true;
+                           }};
+    }
+    flush(io);
+    raise(fd);
+    flush(io);
+    CHECK(seen.size() == 0);
+  }
+  SECTION("because the thread has stopped") {
+    const fd_watch watch{io.core(), fd, [&] {
+                           seen.put(take(fd));
+                           return true;
+                         }};
+    io.stop();
+    raise(fd);
+    CHECK(seen.size() == 0);
+  }
+  CHECK(take(fd) > 0);
+}
+
+TEST_CASE("a watch with a pause merges what comes meanwhile") {
+  io_thread io;
+  inbox<uint64_t> seen;
+  const auto fd = counter();
+  const fd_watch watch{io.core(), fd,
+                       [&] {
+                         seen.put(take(fd));
+                         return true;
+                       },
+                       100ms};
+  raise(fd);
+  CHECK(seen.take() == 1);
+  for (int i = 0; i < 10; ++i)
+    raise(fd);
+  CHECK(seen.take() == 10);
+}
+
+TEST_CASE("the last words of a program come before its end") {
+  own_folder folder;
+  io_thread io;
+  const auto path = notify_path(folder.path());
+  const auto socket = share(value_of(open_notify_socket(path)));
+  auto child = value_of(spawn_program(
+      {"/bin/sh", {"-c", "exec >&- 2>&-; exec sleep 60"}, {}}, 30s));
+  const auto pidfd = share(std::move(child.pidfd));
+  inbox<std::string> seen;
+  const child_watch watch{io.core(),
+                          pidfd,
+                          socket,
+                          {[&](const notification& x) { seen.put(x.status); },
+                           [&] { seen.put("end"); }}};
+  REQUIRE(send_notification(path, "STATUS=first"));
+  CHECK(seen.take() == "first");
+  // The socket is not looked at for a moment now, but the end is.
+  REQUIRE(send_notification(path, "STATUS=last"));
+  ::pidfd_send_signal(pidfd->get(), SIGKILL, nullptr, 0);
+  CHECK(seen.take() == "last");
+  CHECK(seen.take() == "end");
+  reap(pidfd->get());
+}
+
+TEST_CASE("a folder's watch sees files made, written and renamed") {
+  own_folder folder;
+  io_thread io;
+  inbox<int> seen;
+  const auto watch =
+      watch_folder(io.core(), folder.path(), [&] { seen.put(0); });
+  flush(io);
+  folder.write("a", "1");
+  seen.take();
+  std::filesystem::rename(folder.path() / "a", folder.path() / "b");
+  seen.take();
+}
+
+TEST_CASE("watching a folder that is not there does nothing") {
+  io_thread io;
+  const auto watch = watch_folder(io.core(), "/no/such/folder", [] {});
+  flush(io);
+}

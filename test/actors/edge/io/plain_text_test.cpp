@@ -1,5 +1,5 @@
-#include "actors/edge/io/limits.hpp"
 #include "actors/edge/io/plain_text.hpp"
+#include "actors/edge/limits.hpp"
 
 #include <catch2/catch.hpp>
 

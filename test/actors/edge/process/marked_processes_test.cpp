@@ -1,4 +1,4 @@
-#include "actors/edge/process/marked_processes.hpp"
+#include "actors/edge/process/process_identity.hpp"
 
 #include "actors/edge/process/process_spawner.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"

@@ -1,7 +1,7 @@
 #include "actors/edge/process/process_spawner.hpp"
 
 #include "actors/edge/disk/small_file.hpp"
-#include "actors/edge/process/pidfd.hpp"
+#include "actors/edge/process/process_identity.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 
 #include <fcntl.h>

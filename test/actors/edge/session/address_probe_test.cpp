@@ -1,7 +1,7 @@
 #include "actors/edge/dds/discovery_server.hpp"
 #include "actors/edge/dds/discovery_setup.hpp"
-#include "actors/edge/http/http_paths.hpp"
-#include "actors/edge/io/listen_socket.hpp"
+#include "actors/edge/http/http_target.hpp"
+#include "actors/edge/io/sockets.hpp"
 #include "actors/edge/session/address_probe.hpp"
 #include "test/actors/edge/io/edge_fixture.hpp"
 

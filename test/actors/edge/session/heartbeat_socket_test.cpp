@@ -1,4 +1,4 @@
-#include "actors/edge/http/node_sockets.hpp"
+#include "actors/edge/http/http_server.hpp"
 #include "actors/edge/session/heartbeat_socket.hpp"
 #include "test/actors/edge/io/edge_fixture.hpp"
 

@@ -1,4 +1,4 @@
-#include "actors/edge/io/limits.hpp"
+#include "actors/edge/limits.hpp"
 #include "actors/edge/session/session_handshake.hpp"
 
 #include <catch2/catch.hpp>

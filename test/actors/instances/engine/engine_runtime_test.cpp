@@ -1,8 +1,8 @@
 #include "actors/core/answer_limits.hpp"
 #include "actors/edge/engine/program_libraries.hpp"
 #include "actors/edge/history/kept_log_folder.hpp"
-#include "actors/edge/process/environment_file.hpp"
-#include "actors/edge/process/limits.hpp"
+#include "actors/edge/limits.hpp"
+#include "actors/edge/process/notify_socket.hpp"
 #include "test/actors/instances/engine/engine_bench.hpp"
 
 #include <atomic>

@@ -1,5 +1,4 @@
 #include "actors/instances/engine/container_document.hpp"
-#include "actors/instances/engine/podman_document.hpp"
 
 #include <catch2/catch.hpp>
 

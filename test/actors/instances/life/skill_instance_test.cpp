@@ -1,7 +1,7 @@
 #include "actors/instances/life/skill_instance.hpp"
 #include "actors/instances/limits.hpp"
 
-#include "actors/instances/life/instance_environment.hpp"
+#include "actors/instances/life/instance_text.hpp"
 #include "messages/failure.hpp"
 #include "test/actors/fakes/instance_bench.hpp"
 

@@ -1,5 +1,4 @@
 #include "actors/instances/life/skill_metrics.hpp"
-
 #include "test/time_zero.hpp"
 
 #include <catch2/catch.hpp>
@@ -7,6 +6,80 @@
 #include <string>
 #include <vector>
 
+using namespace roscell;
+using namespace std::chrono_literals;
+
+namespace {
+
+const stream_table::time_point word_zero{1000s};
+
+struct stream_table_bench {
+  stream_count hear(int64_t frames, std::chrono::milliseconds when) {
+    std::vector<stream_count> reported(1);
+    reported[0].end = "input:0";
+    reported[0].frames = frames;
+    table.hear(reported, word_zero + when);
+    return reported[0];
+  }
+
+  stream_table table;
+};
+
+} // namespace
+
+TEST_CASE("a stream's rate is that between the last two words") {
+  stream_table_bench b;
+  CHECK(b.hear(10, 0s).rate_hz < 0);
+  CHECK(b.hear(30, 2s).rate_hz == Approx(10));
+  CHECK(b.hear(31, 2100ms).rate_hz == Approx(10));
+  CHECK(b.hear(30 + 40, 4s).rate_hz == Approx(20));
+}
+
+TEST_CASE("a stream is quiet since the word that told its last frame") {
+  stream_table_bench b;
+  CHECK(b.hear(0, 0s).quiet_s == 0);
+  CHECK(b.hear(0, 4s).quiet_s == Approx(4));
+  CHECK(b.hear(1, 8s).quiet_s == 0);
+  CHECK(b.hear(1, 20s).quiet_s == Approx(12));
+}
+
+TEST_CASE("a stream is steady once it has had three frames in ten seconds") {
+  stream_table_bench b;
+  int64_t frames = 0;
+  for (auto when = 0s; when < 10s; when += 2s)
+    CHECK(b.hear(frames++, when).steady_s < 0);
+  CHECK(b.hear(5, 10s).steady_s == 0);
+  CHECK(b.hear(6, 12s).steady_s == Approx(2));
+  SECTION("and until there are fewer") {
+    CHECK(b.hear(6, 16s).steady_s == Approx(6));
+    CHECK(b.hear(6, 20s).steady_s < 0);
+  }
+}
+
+TEST_CASE("a frame now and then makes no steady stream") {
+  stream_table_bench b;
+  for (int i = 0; i < 20; ++i)
+    CHECK(b.hear(i, 5s * i).steady_s < 0);
+}
+
+TEST_CASE("a stream of a program that begins anew has been neither quiet nor "
+          "steady") {
+  stream_table_bench b;
+  for (int i = 0; i < 10; ++i)
+    b.hear(100 * i, 2s * i);
+  const auto anew = b.hear(3, 30s);
+  CHECK(anew.rate_hz < 0);
+  CHECK(anew.quiet_s == 0);
+  CHECK(anew.steady_s < 0);
+}
+
+TEST_CASE("a stream that is not told of is forgotten") {
+  stream_table_bench b;
+  b.hear(0, 0s);
+  std::vector<stream_count> none;
+  b.table.hear(none, word_zero + 4s);
+  CHECK(b.hear(0, 8s).quiet_s == 0);
+}
 namespace roscell::test {
 
 using namespace std::chrono_literals;
@@ -138,3 +211,59 @@ TEST_CASE("A run's streams have not been quiet before it began",
 }
 
 } // namespace roscell::test
+
+using namespace roscell;
+using namespace std::chrono_literals;
+
+namespace {
+
+const quiet_notice::time_point notice_zero{1000s};
+
+struct notice_bench {
+  notice_bench() {
+    row.spec.input = {{"ros2", "/a", "std_msgs/msg/String"}};
+    row.metrics.streams.resize(1);
+    row.metrics.streams[0].end = "input:0";
+  }
+
+  bool hear(double quiet_s, std::chrono::seconds when) {
+    row.metrics.streams[0].quiet_s = quiet_s;
+    return notice.hear(row, notice_zero + when);
+  }
+
+  instance_row row;
+  quiet_notice notice;
+};
+
+} // namespace
+
+TEST_CASE("a silence is told once, and its end") {
+  notice_bench b;
+  CHECK_FALSE(b.hear(0, 0s));
+  CHECK_FALSE(b.hear(28, 28s));
+  CHECK(b.hear(32, 32s));
+  CHECK_FALSE(b.hear(36, 36s));
+  CHECK(b.hear(0, 40s));
+  CHECK_FALSE(b.hear(0, 44s));
+}
+
+TEST_CASE("a stream that is often silent is told of seldom") {
+  notice_bench b;
+  int reported = 0;
+  for (auto when = 0s; when < 24h; when += 40s) {
+    reported += b.hear(35, when) ? 1 : 0;
+    reported += b.hear(0, when + 5s) ? 1 : 0;
+  }
+  CHECK(reported == 2 * 24);
+}
+
+TEST_CASE("the silence of what is no topic, or is not counted, is not told") {
+  notice_bench b;
+  SECTION("a file") {
+    b.row.spec.input[0].protocol = "file";
+  }
+  SECTION("an output") {
+    b.row.metrics.streams[0].end = "output:0";
+  }
+  CHECK_FALSE(b.hear(60, 60s));
+}

@@ -1,5 +1,5 @@
 #include "actors/edge/process/fence_file.hpp"
-#include "actors/edge/process/pidfd.hpp"
+#include "actors/edge/process/process_identity.hpp"
 #include "test/actors/instances/process/process_bench.hpp"
 
 #include <poll.h>

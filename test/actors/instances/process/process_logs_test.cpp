@@ -1,4 +1,4 @@
-#include "actors/instances/process/process_logs.hpp"
+#include "actors/instances/process/process_runtime.hpp"
 
 #include "test/actors/instances/process/process_bench.hpp"
 

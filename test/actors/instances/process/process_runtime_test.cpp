@@ -2,8 +2,8 @@
 
 #include "actors/edge/disk/folder_hash.hpp"
 #include "actors/edge/history/kept_log_folder.hpp"
-#include "actors/edge/process/environment_file.hpp"
-#include "actors/edge/process/pidfd.hpp"
+#include "actors/edge/process/notify_socket.hpp"
+#include "actors/edge/process/process_identity.hpp"
 #include "test/actors/instances/process/process_bench.hpp"
 #include "test/places.hpp"
 

@@ -1,9 +1,7 @@
-#include "actors/placement/search/report/alternative.hpp"
+#include "actors/placement/search/report/explain.hpp"
 
 #include "builders.hpp"
 #include "random_cases.hpp"
-
-#include "actors/placement/search/report/use.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "actors/placement/search/bounds/cover_bound.hpp"
+#include "actors/placement/search/bounds/slice_bound.hpp"
 
 #include <catch2/catch.hpp>
 

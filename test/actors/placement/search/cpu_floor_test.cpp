@@ -1,4 +1,4 @@
-#include "actors/placement/search/cpu_floor.hpp"
+#include "actors/placement/search/allocation.hpp"
 
 #include "builders.hpp"
 #include "random_cases.hpp"

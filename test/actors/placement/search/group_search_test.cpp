@@ -3,7 +3,6 @@
 #include "random_cases.hpp"
 
 #include "actors/placement/search/allocation.hpp"
-#include "actors/placement/search/first_guess.hpp"
 #include "actors/placement/search/search.hpp"
 
 #include <catch2/catch.hpp>

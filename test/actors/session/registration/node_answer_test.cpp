@@ -1,4 +1,4 @@
-#include "actors/session/registration/node_answer.hpp"
+#include "actors/session/registration_client.hpp"
 
 #include "messages/messages.hpp"
 

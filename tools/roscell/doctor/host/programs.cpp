@@ -1,7 +1,7 @@
 #include "tools/roscell/doctor/host/programs.hpp"
 
 #include "actors/core/program_version.hpp"
-#include "actors/edge/host/installed_files.hpp"
+#include "actors/edge/host/own_process.hpp"
 #include "actors/instances/skills/skill_catalogue.hpp"
 #include "actors/node/node_runtime.hpp"
 #include "tools/roscell/doctor/command_text.hpp"

@@ -1,8 +1,8 @@
 #include "tools/roscell/doctor/host/rights.hpp"
 
-#include "actors/edge/site/site_token_file.hpp"
-#include "tools/roscell/client/open_secret.hpp"
+#include "actors/edge/session/site_token.hpp"
 #include "tools/roscell/client/open_skills.hpp"
+#include "tools/roscell/client/target.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
 
 #include <sys/stat.h>

@@ -2,7 +2,7 @@
 
 #include "actors/edge/disk/small_file.hpp"
 #include "actors/edge/http/client/http_client.hpp"
-#include "actors/edge/http/http_paths.hpp"
+#include "actors/edge/http/http_target.hpp"
 #include "messages/codec/json_codec.hpp"
 #include "messages/node.hpp"
 

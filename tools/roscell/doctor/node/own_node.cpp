@@ -1,6 +1,6 @@
 #include "tools/roscell/doctor/node/own_node.hpp"
 
-#include "actors/edge/http/http_paths.hpp"
+#include "actors/edge/http/http_target.hpp"
 #include "actors/edge/io/socket_address.hpp"
 #include "messages/insight/examination.hpp"
 #include "tools/roscell/doctor/node/asked_nodes.hpp"

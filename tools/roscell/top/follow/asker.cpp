@@ -1,9 +1,42 @@
 #include "tools/roscell/top/follow/asker.hpp"
 
+#include "actors/edge/http/http_target.hpp"
+#include "tools/roscell/exit_code.hpp"
+
+#include <sys/eventfd.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <utility>
 
 namespace roscell::cli::top {
+
+mailbox::mailbox() : fd_{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)} {
+  if (fd_ < 0)
+    throw command_error{exit_refused, "too many open files"};
+}
+
+mailbox::~mailbox() {
+  close(fd_);
+}
+
+void mailbox::put(work x) {
+  const std::lock_guard guard{mutex_};
+  waiting_.push_back(std::move(x));
+  eventfd_write(fd_, 1);
+}
+
+void mailbox::work_off() {
+  std::vector<work> due;
+  {
+    const std::lock_guard guard{mutex_};
+    eventfd_t count = 0;
+    eventfd_read(fd_, &count);
+    due = std::exchange(waiting_, {});
+  }
+  for (const auto& x : due)
+    x();
+}
 
 namespace {
 
@@ -88,6 +121,35 @@ void asker::ask_for_cell() {
                         ? get("/v1/cell?resources=now").get<cell_description>()
                         : cell_around(asked);
   to_.put([this, asked, cell] { model_.set_cell(asked, cell); });
+}
+
+log_follower::log_follower(const node_client& node, std::string instance,
+                           mailbox& to, line_taker take)
+    : node_{node}, instance_{std::move(instance)}, to_{to},
+      take_{std::move(take)}, reader_{[this] { run(); }} {}
+
+log_follower::~log_follower() {
+  cancel_.cancel();
+  reader_.join();
+}
+
+void log_follower::put(const std::string& line) {
+  to_.put([take = take_, line] { take(line); });
+}
+
+void log_follower::run() {
+  const auto path =
+      "/v1/instances/" + percent_encode(instance_) + "/logs?tail=500&follow=1";
+  try {
+    const auto on_line = [this](std::string_view x) {
+      put(std::string{x});
+      return true;
+    };
+    node_.follow(path, on_line, &cancel_);
+    put("-- the instance has ended --");
+  } catch (const std::exception&) {
+    put("-- " + reason_in(std::current_exception()) + " --");
+  }
 }
 
 } // namespace roscell::cli::top

@@ -2,14 +2,44 @@
 
 #include "client/cell_model.hpp"
 #include "tools/roscell/client/node_client.hpp"
-#include "tools/roscell/top/follow/mailbox.hpp"
 
 #include <chrono>
 #include <condition_variable>
+#include <functional>
 #include <mutex>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace roscell::cli::top {
+
+/// What threads want done by the one that draws, which waits for a descriptor.
+class mailbox {
+public:
+  using work = std::function<void()>;
+
+  mailbox();
+  ~mailbox();
+
+  mailbox(const mailbox&) = delete;
+  mailbox& operator=(const mailbox&) = delete;
+
+  void put(work x);
+
+  /// Does all that is there, in order. The descriptor is not readable any more
+  /// then.
+  void work_off();
+
+  /// Readable while there is something.
+  int fd() const {
+    return fd_;
+  }
+
+private:
+  int fd_;
+  std::mutex mutex_;
+  std::vector<work> waiting_;
+};
 
 /// Asks a node, on a thread of its own, and has the answers put into a model.
 /// What is wanted while it waits is asked together and once, four times a
@@ -44,6 +74,36 @@ private:
   questions wanted_;
   bool ended_ = false;
   std::thread worker_; // Last: it uses all the others.
+};
+
+/// Follows the log of one instance on a thread of its own: its last lines, then
+/// each as it is written. Why it ends is a last line.
+class log_follower {
+public:
+  /// Called by who works off the mailbox.
+  using line_taker = std::function<void(const std::string& line)>;
+
+  log_follower(const node_client& node, std::string instance, mailbox& to,
+               line_taker take);
+  ~log_follower();
+
+  log_follower(const log_follower&) = delete;
+  log_follower& operator=(const log_follower&) = delete;
+
+  const std::string& instance() const {
+    return instance_;
+  }
+
+private:
+  void run();
+  void put(const std::string& line);
+
+  const node_client& node_;
+  http_cancel cancel_;
+  std::string instance_;
+  mailbox& to_;
+  line_taker take_;
+  std::thread reader_; // Last: it uses all the others.
 };
 
 } // namespace roscell::cli::top

@@ -1,9 +1,10 @@
 #pragma once
 
 #include "tools/roscell/top/layout/controls.hpp"
-#include "tools/roscell/top/terminal/crash_guard.hpp"
+#include "tools/roscell/top/terminal/signals.hpp"
 
 #include <cstddef>
+#include <cwchar>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,5 +57,14 @@ private:
   bool utf8_ = false;
   bool colours_ = false;
 };
+
+// INTERNAL to the screen: keys as ncurses tells them. Nothing for those that
+// mean nothing to us.
+
+/// A key that types no character.
+std::optional<key> special_key(wint_t code);
+
+/// A character, or what terminals send as one, such as Tab.
+std::optional<key> typed_key(wint_t code);
 
 } // namespace roscell::cli::top

@@ -2,7 +2,8 @@
 
 #include "messages/event_kinds.hpp"
 #include "tools/roscell/client/event_text.hpp"
-#include "tools/roscell/view/describe/parts.hpp"
+#include "tools/roscell/tasks/task_view.hpp"
+#include "tools/roscell/view/describe/page.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/graph/task_graph.hpp"
 #include "tools/roscell/view/instance_text.hpp"
@@ -227,6 +228,27 @@ std::string printable_lines(const std::string& text) {
     at = end + 1;
   }
   return result;
+}
+
+std::vector<skill_row> builds_of(const known_cell& known,
+                                 const std::string& operation) {
+  std::vector<skill_row> result;
+  std::copy_if(known.skills.skills.begin(), known.skills.skills.end(),
+               std::back_inserter(result), [&](const auto& x) {
+                 return x.skill.descriptor.operation == operation;
+               });
+  return result;
+}
+
+void describe_skill(page& out, const known_cell& known, const std::string& name,
+                    const view_style& style) {
+  const auto builds = builds_of(known, name);
+  const auto& first = builds.front().skill.descriptor;
+  out.detail("Engine", first.engine);
+  out.detail("Program", joined(first.entry_point, " "));
+  auto inner = style.text;
+  inner.width = page::inner_width(inner.width);
+  out.section("How it is used", skill_view(builds, inner));
 }
 
 } // namespace roscell::cli

@@ -1,6 +1,6 @@
 #include "tools/roscell/view/shape/shape.hpp"
 
-#include "actors/edge/io/time_text.hpp"
+#include "actors/edge/io/node_time.hpp"
 
 #include <string>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
-#include "actors/edge/dds/rtps/submessages.hpp"
-#include "dds/server_ids.hpp"
+#include "actors/edge/dds/rtps/rtps_messages.hpp"
+#include "dds/server_addresses.hpp"
 
 #include <algorithm>
 #include <cstdint>

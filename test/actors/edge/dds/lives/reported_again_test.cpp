@@ -1,6 +1,6 @@
 #include "actors/edge/dds/lives/discovery_guard.hpp"
-#include "actors/edge/dds/rtps/discovery_filter.hpp"
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
+#include "actors/edge/dds/rtps/discovery_wire.hpp"
 
 #include "test/actors/edge/dds/lives/addressed.hpp"
 

@@ -1,5 +1,5 @@
-#include "actors/edge/dds/rtps/discovery_filter.hpp"
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
+#include "actors/edge/dds/rtps/discovery_wire.hpp"
 
 #include <catch2/catch.hpp>
 

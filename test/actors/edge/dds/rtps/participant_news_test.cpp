@@ -1,7 +1,7 @@
 #include "actors/edge/dds/rtps/participant_news.hpp"
 
 #include "actors/edge/dds/rtps/discovery_probe.hpp"
-#include "actors/edge/dds/rtps/submessages.hpp"
+#include "actors/edge/dds/rtps/rtps_messages.hpp"
 
 #include <catch2/catch.hpp>
 

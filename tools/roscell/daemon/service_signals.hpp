@@ -1,0 +1,66 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+namespace roscell::cli {
+
+/// Waits for SIGINT and SIGTERM, or for `end`, without a signal handler.
+/// Blocks both signals for the calling thread and those it makes later. SIGHUP
+/// is ignored by the process from then on.
+class stop_signals {
+public:
+  using time_point = std::chrono::steady_clock::time_point;
+
+  enum class cause { signal, ended, news, timeout };
+
+  stop_signals();
+  ~stop_signals();
+
+  stop_signals(const stop_signals&) = delete;
+  stop_signals& operator=(const stop_signals&) = delete;
+
+  cause wait();
+  cause wait_for(std::chrono::milliseconds limit);
+
+  /// The same until `until`, or without end; `news` where `fd` can be read.
+  cause wait_with(int fd, std::optional<time_point> until);
+
+  /// What is waited for has ended by itself; from any thread. Ends one wait.
+  void end();
+
+private:
+  cause poll_once(int fd, int timeout_ms);
+
+  int signal_fd_;
+  int event_fd_;
+};
+
+/// Tells whoever started this process that it is ready and that it stops: the
+/// service manager at $NOTIFY_SOCKET, in systemd's protocol, and the reader of
+/// a file descriptor, who gets the line "READY=1" and then its end.
+class readiness {
+public:
+  /// Takes NOTIFY_SOCKET out of the environment, so that no child speaks in
+  /// our name. `fd` is negative for none.
+  explicit readiness(int fd);
+
+  void ready();
+
+  /// The node cannot start yet. The manager is shown why, and goes on with its
+  /// boot: it would end a service that takes too long to be ready. The reader
+  /// hears of it no earlier than of a node that can be asked.
+  void waiting(const std::string& why);
+
+  void stopping();
+
+private:
+  void notify(const std::string& state) const;
+
+  std::string socket_;
+  int fd_;
+  bool waited_ = false;
+};
+
+} // namespace roscell::cli
