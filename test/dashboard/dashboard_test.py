@@ -24,7 +24,7 @@ from asking import Asking  # noqa: E402
 from browser import Browser  # noqa: E402
 import reading  # noqa: E402
 from keeping_place import KeepingPlace  # noqa: E402
-from making_way import MakingWay  # noqa: E402
+from preempting import MakingWay  # noqa: E402
 
 OPTIONS = argparse.Namespace(url="", scene={}, pictures=None)
 

@@ -150,7 +150,7 @@ class FaultTest(unittest.TestCase):
         page.open("#/tasks/task-01")
         links = lambda: page.js("return [...document.querySelectorAll('a.step')].map((x) => x.getAttribute('href'))")
         page.until(lambda: f"#/instances/{INSTANCE}" in links())
-        page.until(lambda: "takes" in page.js("return document.querySelector('.flow .metrics').textContent"))
+        page.until(lambda: "Hz" in page.js("return document.querySelector('.end .metrics').textContent"))
         row["spec"]["instance"] = "task-01-step_3-11111111"
         self.fake.say("instance_restarted", INSTANCE, {"task": "task-01"})
         page.until(lambda: "#/instances/task-01-step_3-11111111" in links())
@@ -238,8 +238,8 @@ class FaultTest(unittest.TestCase):
         self.fake.started = int(time.time() * 1000)
         page.open("#/tasks")
         page.sees("task-01")
-        since = page.text("tbody tr td:last-child")
-        page.until(lambda: page.text("tbody tr td:last-child") != since, 12)
+        since = page.text("tbody tr td:nth-of-type(2)")
+        page.until(lambda: page.text("tbody tr td:nth-of-type(2)") != since, 12)
 
     def test_lines_of_resources_show_ten_minutes_at_most_and_only_nodes_that_are_there(self):
         self.page.open("#/site")

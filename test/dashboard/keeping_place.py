@@ -19,7 +19,7 @@ class KeepingPlace:
         page.js("document.querySelector('.skip').focus()")
         page.keys(Keys.ENTER)
         time.sleep(0.5)
-        self.assertEqual(page.js("return [location.hash, document.activeElement.id]"), ["#/requests/node_drain", "room"])
+        self.assertEqual(page.js("return [location.hash, document.activeElement.id]"), ["#/requests/node_drain", "page"])
         self.assertEqual(page.field("Node").get_attribute("value"), "half-writ")
 
     def test_buttons_of_a_node_stay_under_the_keyboard_while_its_figures_come(self):

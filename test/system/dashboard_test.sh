@@ -365,6 +365,14 @@ test_a_shell_does_a_line_and_ends_with_its_code() {
   expect "code without a node" "$code" 3
 }
 
+test_a_completion_asks_the_node_that_the_line_names() {
+  start_node head --coordinator --cell line --interface lo
+  expect "what may follow" "$("$ROSCELL" completion \
+    --line "roscell drain --to $scratch/head/node.sock " | cut -f 1)" head
+  expect "without a node" \
+    "$("$ROSCELL" completion --line "roscell drain --to $scratch/no.sock ")" ''
+}
+
 test_a_script_of_the_shell_stops_at_its_first_error() {
   local code=0
   start_node head --coordinator --cell line --interface lo

@@ -230,7 +230,7 @@ TEST_CASE("an amount has its bar before it where bars are wanted", "[tools]") {
   text_style drawn;
   drawn.bars = true;
   drawn.utf8 = false;
-  CHECK(t.render(drawn) == "NODE             CPU\narm   #####+++..  3/4\n");
+  CHECK(t.render(drawn) == "NODE             CPU\narm   #####+++.. 3/4\n");
 }
 
 TEST_CASE("a wide character takes two columns of a table", "[tools]") {

@@ -58,7 +58,7 @@ TEST_CASE("the headings tell how many there are and how they are sorted",
           "[top]") {
   list_style style;
   style.order = {"RATE", true};
-  CHECK(text_of(list_lines(three(), style).front()).rfind(" NAME 3  RATE v", 0)
+  CHECK(text_of(list_lines(three(), style).front()).rfind(" NAME 3   RATE v", 0)
         == 0);
 }
 

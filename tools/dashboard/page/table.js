@@ -53,7 +53,7 @@ export class Table {
     if (!order)
       return this.items;
     const way = this.backwards ? -1 : 1;
-    return [...this.items].sort((a, b) => way * compare(order(a), order(b)));
+    return this.items.map((item) => [order(item), item]).sort(([a], [b]) => way * compare(a, b)).map(([, item]) => item);
   }
 
   draw() {

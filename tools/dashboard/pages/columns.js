@@ -21,6 +21,8 @@ const WORDS = {
 const STATES = { state: (x) => x.state, node_state: nodeState, instance_state: instanceState };
 
 const ORDERS = {
+  // Rows that are alike would change their places with each answer.
+  key: (x, { spec }) => (spec ? `${spec.task} ${spec.step}` : x),
   since: (x) => -x, usage: (x) => x.used / x.capacity,
   running: (_, row, app) => notRunning(app.store.instancesOf(row.task)).length,
 };
@@ -31,7 +33,8 @@ export function columnsOf(kind, app, without = '') {
 }
 
 function made({ name, as, path, number: isNumber, minor }, app) {
-  const value = (row) => path.split('/').slice(1).reduce((x, member) => x?.[member], row);
+  const members = path.split('/').slice(1);
+  const value = members[0] === 'figures' ? (row) => at(figuresOf(row, app), members.slice(1)) : (row) => at(row, members);
   const text = (row) => (WORDS[as] ?? String)(value(row) ?? (as in WORDS ? undefined : ''), row, app);
   const plain = (row) => (typeof value(row) === 'object' || !path ? text(row) : value(row) ?? (isNumber ? -1 : ''));
   const column = {
@@ -39,8 +42,15 @@ function made({ name, as, path, number: isNumber, minor }, app) {
     class: [isNumber && as !== 'usage' && 'number', minor && 'minor', as === 'labels' && as, as === 'problems' && 'wrong'].filter(Boolean).join(' ') || null,
   };
   if (as === 'usage')
-    return { ...column, ...usage(path.split('/').at(-1), app) };
-  return STATES[as] ? { ...column, ...state(STATES[as]) } : column;
+    return { ...column, ...usage(members.at(-1), app) };
+  return STATES[as] ? { ...column, ...state(STATES[as], app) } : column;
+}
+
+const at = (row, members) => members.reduce((x, member) => x?.[member], row);
+
+/** What is known of an instance's metrics now. */
+function figuresOf({ spec, figures }, { store }) {
+  return store.metrics.get(spec.instance) ?? figures;
 }
 
 /** "DATA AGE" is "Data age"; short ones are abbreviations. */
@@ -48,13 +58,13 @@ function titleOf(name) {
   return name.split(' ').map((x, i) => (x.length < 4 ? x : (i ? '' : x[0]) + x.slice(i ? 0 : 1).toLowerCase())).join(' ');
 }
 
-function state(of) {
+function state(of, app) {
   return {
     order: of,
     make: (cell) => cell.appendChild(stateMark('unknown')),
     update: (cell, row, mark) => {
       updateState(mark, of(row));
-      setAttribute(mark, 'title', row.reason ?? row.health_reason ?? row.figures?.remark ?? null);
+      setAttribute(mark, 'title', row.reason ?? row.health_reason ?? (row.spec && figuresOf(row, app)?.remark) ?? null);
     },
   };
 }
@@ -99,9 +109,4 @@ function runningWords(instances) {
   const words = rows.slice(0, 3).map((x) => `${x.spec.step} ${spoken(instanceState(x))}`);
   return `${instances.length - rows.length} of ${instances.length}${words.length ? `: ${words.join(', ')}` : ''}`
     + (rows.length > 3 ? ` and ${rows.length - 3} more` : '');
-}
-
-/** Instances with what is known of their metrics now. */
-export function measured(rows, { metrics }) {
-  return rows.map((x) => ({ ...x, figures: metrics.get(x.spec.instance) ?? x.figures }));
 }

@@ -4,7 +4,7 @@ import { onceAFrame } from '../page/frames.js';
 import { address } from '../page/router.js';
 import { Table } from '../page/table.js';
 import { count, instanceState, kindOf } from '../page/words.js';
-import { columnsOf, measured } from './columns.js';
+import { columnsOf } from './columns.js';
 import { SearchField } from './search_field.js';
 
 const GROUPS = [
@@ -32,7 +32,7 @@ export class InstancesPage {
     const all = [...this.app.store.instances.values()];
     const shown = all.filter((x) => (!this.group.value || kindOf(instanceState(x)) === this.group.value)
       && this.find.fits(textOf(x)));
-    this.table.update(measured(shown, this.app.store));
+    this.table.update(shown);
     setText(this.amount, shown.length === all.length ? count(all.length, 'instance') : `${shown.length} of ${all.length}`);
   }
 }

@@ -6,7 +6,6 @@ import { meter, sparkline, stateMark, updateMeter, updateSparkline, updateState 
 import { address, way } from '../page/router.js';
 import { ago, dateAndTime, labelWords, nodeState, number, ofMebibytes, percent } from '../page/words.js';
 import { instanceTable } from './instances_page.js';
-import { measured } from './columns.js';
 
 export class NodePage {
   constructor(app, where) {
@@ -34,7 +33,7 @@ export class NodePage {
     updateState(this.state, nodeState(row));
     setText(this.reason, row.reason ? `${row.reason} (${ago(row.since_unix_ms)} ago)` : '');
     keyed(this.charts, chartsOf(row.resources), (x) => x.key, makeChart, (card, x) => this.updateChart(card, x));
-    this.instances.update(measured(this.app.store.instancesOn(this.name), this.app.store));
+    this.instances.update(this.app.store.instancesOn(this.name));
     if (kinds.has('nodes') || kinds.has('all') || kinds.has('skills'))
       this.showFacts(row);
   }

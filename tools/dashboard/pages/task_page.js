@@ -11,7 +11,6 @@ import { DecisionView } from '../planning/decision_view.js';
 import { keepDraft } from '../planning/drafts.js';
 import { copyOf } from '../planning/task_copy.js';
 import { EventRows } from './event_rows.js';
-import { measured } from './columns.js';
 import { instanceTable } from './instances_page.js';
 
 const HISTORY_MS = 1000;
@@ -60,7 +59,7 @@ export class TaskPage {
     this.there = Boolean(task);
     const instances = store.instancesOf(this.name);
     this.picture.update(instances);
-    this.instances.update(measured(instances, store));
+    this.instances.update(instances);
     this.showWaits(instances);
     if (kinds.has('events') && this.newEvents().some((x) => this.concerns(x)))
       this.askHistory();

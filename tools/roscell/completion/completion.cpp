@@ -98,8 +98,11 @@ bool is_plain(const std::string& word) {
 /// The node that a line names, which is asked for names.
 connection_options connection_in(std::string_view line) {
   connection_options result;
-  const auto words = split_words(line).words;
-  for (size_t i = 0; i + 2 < words.size(); ++i)
+  const auto split = split_words(line);
+  const auto& words = split.words;
+  // The word that is being typed is no value yet.
+  const auto whole = words.size() - (split.in_word ? 1 : 0);
+  for (size_t i = 0; i + 1 < whole; ++i)
     if (words[i] == "--to")
       result.to = words[i + 1];
     else if (words[i] == "--token-file")

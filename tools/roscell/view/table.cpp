@@ -33,7 +33,8 @@ struct fitted_table {
 };
 
 std::string shown_text(const cell& x) {
-  return x.text.empty() ? "-" : printable(x.text);
+  const bool is_nothing = x.text.empty() && x.how != look::heading;
+  return is_nothing ? "-" : printable(x.text);
 }
 
 size_t natural_width(const cell& x, const text_style& style) {
