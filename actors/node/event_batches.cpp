@@ -60,8 +60,9 @@ void on_batch_refused(event_log_pointer self, std::vector<event> events,
     return;
   const auto why = to_failure(error);
   const json data{{"message", why.message}, {"hint", why.hint}};
-  self->send(caf::actor_cast<event_log_actor>(self),
-             record_event{events::history_failed.name, "", data.dump()});
+  self->send(
+      caf::actor_cast<event_log_actor>(self),
+      record_event{std::string{events::history_failed.name}, "", data.dump()});
 }
 
 std::vector<event> take_batch(event_log_state& st) {
