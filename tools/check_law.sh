@@ -132,7 +132,7 @@ fi
 if grep -rnE 'delayed_(anon_)?send|schedule_message' --include='*.?pp' \
      actors embedding skills tools | grep -v '^actors/core/alarm.hpp:'; then
   echo "law: an actor has actors/core/alarm.hpp, which ends with it; what lives as" \
-    "long as its node is told later by actors/core/alarm.hpp"
+    "long as its node is told later by its send_lasting_actor_later"
   broken=1
 fi
 

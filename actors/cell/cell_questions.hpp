@@ -6,8 +6,10 @@
 #include <functional>
 #include <string>
 
-/// Logs of instances of a cell, on whichever node they are.
+/// What the CELL COORDINATOR asks its members on behalf of who asks it.
 namespace roscell {
+
+// Logs of instances of a cell, on whichever node they are.
 
 /// A part of the log of an instance, or of the newest that a node has kept of
 /// it. Errors: unknown_task, unreachable.

@@ -20,9 +20,6 @@ inline int64_t boot_now_ms(caf::actor_system&) {
   return static_cast<int64_t>(now.tv_sec) * 1000 + now.tv_nsec / 1'000'000;
 }
 
-} // namespace roscell
-namespace roscell {
-
 /// Milliseconds since 1970, for people to read. No decision depends on it:
 /// clocks of different nodes may differ by years. It is the time of this node,
 /// which is told as the wall clock has it (shifted_times.hpp).

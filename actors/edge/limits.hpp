@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Names and numbers that unauthenticated peers send. The schemas say the same.
+/// Limits of what the edge reads from outside and of the host.
 namespace roscell::limits {
+
+// Names and numbers that unauthenticated peers send. The schemas say the same.
 
 namespace membership {
 

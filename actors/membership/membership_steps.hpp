@@ -115,7 +115,7 @@ void on_session_lost(self_pointer self, const std::string& reason);
 /// Tells the coordinator, less of it where the whole does not fit into a frame.
 void notify(self_pointer self, const instance_changed& event);
 
-// -- membership_programs.cpp: the node's own discovery server -----------------
+// -- program_servers.cpp: the node's own discovery server ---------------------
 
 /// To be called at the start and after each registration, also where there is
 /// nothing: what was interrupted, and what was started at another address,
@@ -137,7 +137,8 @@ uint16_t program_port(const membership_status& st);
 std::map<std::string, std::string>
 program_environment(const membership_status& st);
 
-// -- membership_verdicts.cpp --------------------------------------------------
+// -- membership_session.cpp: what the coordinator says of its instances
+// --------
 
 /// Stops and starts what the coordinator has decided on.
 void apply(self_pointer self, const std::vector<instance_verdict>& verdicts);

@@ -123,8 +123,6 @@ private:
   std::map<std::string, schema_rule> slots_; ///< By "document#pointer".
 };
 
-struct schema_rule;
-
 /// Says of a member that a rule does not describe which one was probably meant,
 /// by its spelling or by its name in other systems, or else which there are:
 /// `there is no member "label" here; did you mean "labels"?`

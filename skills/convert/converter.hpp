@@ -20,7 +20,7 @@ namespace roscell::convert {
 /// | parameter | default | meaning |
 /// |---|---|---|
 /// | encoding | bgr8 | of what is sent: mono8, rgb8 or bgr8
-/// | encodings | all of them | see vision/accepted_encodings.hpp
+/// | encodings | all of them | see vision/complaint.hpp
 ///
 /// An encoding of which nothing says how bright a pixel is ends the skill.
 class converter : public engine::executor {

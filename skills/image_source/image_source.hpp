@@ -28,7 +28,7 @@ namespace roscell::source {
 /// beside the pictures (see vision/calibration.hpp); without both, CameraInfo
 /// is all zero but for its size, as ROS has it for a camera that is not
 /// calibrated. Further parameters, beside `rate_hz` and `loop` of the protocol
-/// and those of vision/compression.hpp:
+/// and those of vision/image_codec.hpp:
 ///
 /// | parameter | default | meaning |
 /// |---|---|---|

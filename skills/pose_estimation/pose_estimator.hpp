@@ -44,7 +44,7 @@ namespace roscell::pose {
 /// | picture_rate_hz | 1 | of a topic or video, at most so many pictures per
 ///   second are drawn, each in the place of the one before, so that they do not
 ///   fill a disk; 0: every picture under its own name. Files always get all
-/// | encodings | all of them | see vision/accepted_encodings.hpp
+/// | encodings | all of them | see vision/complaint.hpp
 ///
 /// A file that is no image is said once and skipped. An image whose message is
 /// broken fails. One in an encoding that cannot be used ends the skill.

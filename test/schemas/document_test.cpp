@@ -141,7 +141,6 @@ TEST_CASE("comments, trailing commas and single quotes are refused") {
   refusal("['a']");
   refusal("{a:1}");
 }
-using namespace roscell;
 
 namespace {
 
@@ -272,7 +271,6 @@ TEST_CASE("the place of what cannot be read is told with the reason") {
   CHECK(find_problem("{\"a\" 1}", document_format::json)->at.column == 6);
   CHECK_FALSE(find_problem("a: 1", document_format::yaml));
 }
-using namespace roscell;
 
 TEST_CASE("a message is decoded to its struct") {
   auto result = decode<task_query>({{"type", "task_query"}, {"task", "a"}});

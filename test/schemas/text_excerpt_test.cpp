@@ -36,7 +36,6 @@ TEST_CASE("a value is told in few words") {
   auto words = shown_value(std::string(80, 'x'));
   CHECK(words == '"' + std::string(40, 'x') + "\"... (80 characters)");
 }
-using namespace roscell;
 
 TEST_CASE("a slip of the pen finds the word that was meant") {
   std::vector<std::string_view> words{"task_query", "task_request",

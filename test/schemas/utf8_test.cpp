@@ -39,7 +39,6 @@ TEST_CASE("a character whose rest is missing is told from a broken one") {
   CHECK(unfinished_utf8("a\x80") == 0);
   CHECK(unfinished_utf8("\xED\xA0") == 0);
 }
-using namespace roscell;
 
 TEST_CASE("base64 is that of RFC 4648") {
   const std::pair<const char*, const char*> known[] = {{"", ""},

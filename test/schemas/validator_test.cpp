@@ -134,7 +134,6 @@ TEST_CASE("several threads may validate at once, from the first call on") {
     thread.join();
   CHECK(wrong == std::vector<size_t>(4));
 }
-using namespace roscell;
 
 TEST_CASE("one error becomes a refusal that says and shows it") {
   auto why = to_failure({{"/task", "expected a name, but it is missing"}});

@@ -18,8 +18,8 @@
 /// out of them before is the reason for a failure. Exit code: 0 when `exit` is
 /// written, 1 for a failure, 2 for wrong usage.
 ///
-/// With a fence (fence.hpp) the command and all that it has started is killed
-/// when the fence has passed. Nothing is started without it then.
+/// With a fence (supervision.hpp) the command and all that it has started is
+/// killed when the fence has passed. Nothing is started without it then.
 ///
 /// With cgroups the command is put into them, and ends with all who are there.
 /// The shim stays outside: it is neither bounded nor ended along with them.

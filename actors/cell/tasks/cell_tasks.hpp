@@ -7,8 +7,8 @@
 #include <vector>
 
 /// What the CELL COORDINATOR does about tasks that are deployed: the intent,
-/// and the word that all steps run. How they are claimed is in task_claims.hpp,
-/// how they end in task_endings.hpp.
+/// the claim of their names, and the word that all steps run. How they end is
+/// in task_endings.hpp.
 namespace roscell {
 
 /// Takes up the tasks that an earlier run of the coordinator has stored.

@@ -201,8 +201,6 @@ cgroup_place find_cgroup_place(const cgroup_request& request,
   return second.version != 0 ? second : none(why);
 }
 
-namespace fs = std::filesystem;
-
 namespace {
 
 /// What the package prepares for the user that its units run as: of version 2

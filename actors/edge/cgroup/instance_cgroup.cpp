@@ -194,8 +194,6 @@ long long cpu_shares_of(double cores) {
   return std::llround(std::clamp(cores * 1024, least, most));
 }
 
-namespace fs = std::filesystem;
-
 namespace {
 
 /// 10,000 numbers and more.

@@ -81,8 +81,6 @@ edge_result<directory_lock> directory_lock::take(const fs::path& folder) {
   return directory_lock{std::move(fd)};
 }
 
-namespace fs = std::filesystem;
-
 namespace {
 
 fs::path free_name(const fs::path& file) {

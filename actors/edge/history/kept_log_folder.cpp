@@ -269,8 +269,6 @@ bool kept_log_folder::drop_oldest() {
   return true;
 }
 
-namespace fs = std::filesystem;
-
 bool look_at(const fs::path& path, struct stat& info) {
   return ::lstat(path.c_str(), &info) == 0;
 }

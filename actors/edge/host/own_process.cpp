@@ -94,8 +94,6 @@ own_cost read_own_cost(const fs::path& process) {
   return result;
 }
 
-namespace fs = std::filesystem;
-
 namespace {
 
 /// More than a UUID and the end of its line.
@@ -130,8 +128,6 @@ std::size_t raise_descriptor_limit() {
     limit = raised;
   return limit.rlim_cur;
 }
-
-namespace fs = std::filesystem;
 
 namespace {
 

@@ -106,9 +106,6 @@ struct http_shared {
   connection_table table;
 };
 
-class http_connection;
-struct http_shared;
-
 /// INTERNAL to this folder: where the answer to the request in progress of a
 /// connection goes, from any thread and also after the client has gone.
 std::shared_ptr<reply_sink>

@@ -92,8 +92,6 @@ notification receive_notifications(int socket) {
   return result;
 }
 
-namespace fs = std::filesystem;
-
 namespace {
 
 unique_fd open_fifo(const fs::path& file, int how) {

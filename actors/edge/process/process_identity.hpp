@@ -15,6 +15,7 @@
 extern "C" {
 #include <sys/pidfd.h>
 }
+
 namespace roscell {
 
 /// Tells a process from all others that have had, or will have, its number.

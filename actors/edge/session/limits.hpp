@@ -65,11 +65,7 @@ constexpr seconds nonce_lifetime{10};
 /// that time are refused.
 constexpr size_t spent_nonces = 64;
 
-} // namespace token
-
 // Secrets.
-
-namespace token {
 
 /// A site token shorter than this could be guessed.
 constexpr size_t least_site_bytes = 16;

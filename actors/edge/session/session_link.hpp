@@ -15,9 +15,10 @@
 #include <string>
 #include <string_view>
 
-/// The seam on the production path where tests lose, delay, repeat and cut
-/// what passes between nodes. Without a filter everything passes.
 namespace roscell {
+
+// The seam on the production path where tests lose, delay, repeat and cut what
+// passes between nodes. Without a filter everything passes.
 
 enum class traffic_direction { outgoing, incoming };
 

@@ -71,7 +71,7 @@ void on_build_lines(engine_runtime_pointer self, image_work& work,
 /// sets the alarm for the others.
 void report_build_steps(engine_runtime_pointer self);
 
-// Containers: engine_start.cpp, engine_stop.cpp, engine_adoption.cpp.
+// Containers: engine_start.cpp, engine_stop.cpp, engine_parts.cpp.
 caf::result<container_started> start(engine_runtime_pointer self,
                                      const start_container& request);
 caf::result<container_stopped> stop(engine_runtime_pointer self,
@@ -94,7 +94,7 @@ caf::result<log_excerpt> read_log(engine_runtime_pointer self,
                                   const log_query& query);
 void on_log_read(engine_runtime_pointer self, const engine_log_read& part);
 
-// Logs of containers that go: engine_kept_logs.cpp.
+// Logs of containers that go: engine_logs.cpp.
 
 /// Puts the end of a container's log into the history, if it is wanted there
 /// and can be read.

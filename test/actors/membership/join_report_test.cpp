@@ -71,7 +71,6 @@ TEST_CASE("nothing is told of who does not try") {
   join_report report;
   CHECK_FALSE(report.note("nothing listens there", "", start));
 }
-using namespace roscell;
 
 namespace {
 

@@ -254,6 +254,7 @@ TEST_CASE("more requests at once than can be remembered are refused") {
 }
 
 } // namespace
+
 namespace roscell {
 
 namespace {

@@ -221,7 +221,6 @@ TEST_CASE(
     deep += std::string(i, ' ') + "a:\n";
   CHECK(says(refusal(deep), "too deep"));
 }
-using namespace roscell;
 
 namespace {
 

@@ -157,8 +157,6 @@ TEST_CASE("a node that began without a carrier is made anew at once when that "
   CHECK(x.after(2s) == action::renew);
   CHECK(x.tracker.successor() == "10.0.0.5");
 }
-using namespace roscell;
-using namespace roscell::cli;
 
 namespace {
 

@@ -195,8 +195,6 @@ std::string find_token(const fs::path& file, const target& to) {
   return {};
 }
 
-namespace fs = std::filesystem;
-
 std::string open_secret_warning(const fs::path& file) {
   std::error_code problem;
   const auto mode = fs::status(file, problem).permissions();

@@ -36,9 +36,6 @@ std::vector<CLI::Option*> options_of_file(CLI::App& command);
 void take_config(CLI::App& command, const std::filesystem::path& file);
 
 } // namespace roscell::cli
-namespace CLI {
-class App;
-} // namespace CLI
 
 namespace roscell::cli {
 

@@ -40,6 +40,7 @@ found_topic find_topic(const node_client& node, const std::string& topic);
 int listen(const std::function<int()>& command);
 
 } // namespace roscell::cli
+
 namespace roscell::cli {
 
 /// The topics with who is at their ends; below them, what does not match.

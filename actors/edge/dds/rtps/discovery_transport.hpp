@@ -73,7 +73,7 @@ struct discovery_transport_options {
 
 /// UDP over IPv4 on one local address only, no shared memory. Fast DDS sends as
 /// it always does. It hears on the DDS thread (dds_thread.hpp), and sees only
-/// the datagrams that are safe for it (discovery_filter.hpp). A discovery
+/// the datagrams that are safe for it (discovery_filter.cpp). A discovery
 /// server's guard has a look at them, too (lives/discovery_guard.hpp).
 std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface>
 discovery_transport(discovery_transport_options options);

@@ -70,7 +70,7 @@ enum class described_entity { participant, writer, reader };
 
 /// Checks the parameter lists of one submessage, turns parameters that must not
 /// be read into padding, and hides from Fast DDS that a participant which came
-/// by multicast takes answers (discovery_filter.hpp).
+/// by multicast takes answers (discovery_filter.cpp).
 class parameter_guard {
 public:
   parameter_guard(described_entity what, arrival how)

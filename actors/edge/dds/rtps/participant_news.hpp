@@ -20,7 +20,7 @@ struct participant_news {
 /// The sender of an RTPS message.
 guid_prefix sender_of(const std::uint8_t* message);
 
-/// The participants whom a message that is safe (discovery_filter.hpp) tells
+/// The participants whom a message that is safe (discovery_filter.cpp) tells
 /// of.
 std::vector<participant_news> participants_in(std::uint8_t* message,
                                               std::size_t size);

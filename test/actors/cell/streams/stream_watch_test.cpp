@@ -185,7 +185,6 @@ TEST_CASE_METHOD(watched_pair, "those are asked that run a task or write what "
   reader.state = instance_state::stopped;
   CHECK(nodes_around(all, {&reader}).empty());
 }
-using namespace roscell;
 
 namespace {
 

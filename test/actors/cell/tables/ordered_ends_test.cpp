@@ -112,12 +112,6 @@ TEST_CASE("What its task has no order for any more is forgotten",
   CHECK(x.size() == 1);
 }
 
-namespace {
-
-using namespace std::chrono_literals;
-
-} // namespace
-
 TEST_CASE("A removal is asked for again after ever longer pauses",
           "[removal_table]") {
   removal_table table;

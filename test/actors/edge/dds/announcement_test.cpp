@@ -115,6 +115,7 @@ TEST_CASE("an announcement over the limit is not looked at", "[announcement]") {
   x.cell = std::string(limits::discovery::announcement_bytes, 'c');
   CHECK_FALSE(decode(encode(x)));
 }
+
 namespace roscell::test {
 
 namespace {

@@ -48,8 +48,6 @@ TEST_CASE("what is no folder cannot be held") {
   CHECK(error_of(directory_lock::take(file / "below")).code
         == error_code::internal);
 }
-using namespace roscell;
-using namespace roscell::test;
 
 namespace fs = std::filesystem;
 

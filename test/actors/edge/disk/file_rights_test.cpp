@@ -115,8 +115,6 @@ TEST_CASE("a data directory into which others may put something is not taken, "
   CHECK(why.hint.find("--data-dir") != std::string::npos);
   CHECK(fs::file_size(folder.path() / "victim") == 8);
 }
-using namespace roscell;
-using namespace roscell::test;
 
 namespace {
 

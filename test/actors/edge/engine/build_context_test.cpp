@@ -98,7 +98,6 @@ TEST_CASE("a build context that cannot be written is a clear error") {
     CHECK(fs::is_empty(b.work.path()));
   }
 }
-using namespace roscell;
 
 namespace {
 

@@ -91,8 +91,6 @@ TEST_CASE("this test's own session uses memory", "[host_probe]") {
   CHECK(usage.processes >= 1);
   CHECK(usage.rss_mib > 0);
 }
-using namespace roscell;
-using namespace roscell::test;
 
 namespace {
 

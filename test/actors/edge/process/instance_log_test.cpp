@@ -201,8 +201,6 @@ TEST_CASE("the log of no instance does not exist") {
   CHECK_FALSE(log.exists());
   CHECK(log.read_from(0).text.empty());
 }
-using namespace roscell;
-using namespace roscell::test;
 
 using times = std::vector<int64_t>;
 

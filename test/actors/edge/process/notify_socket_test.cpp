@@ -62,8 +62,6 @@ TEST_CASE("a folder that others may write to is not trusted") {
   CHECK(error_of(open_notify_socket(folder.path() / "notify")).code
         == error_code::engine_failed);
 }
-using namespace roscell;
-using namespace roscell::test;
 
 namespace {
 

@@ -244,8 +244,6 @@ TEST_CASE("only a policy that asks for something has bounds") {
   CHECK(has_bounds(health_policy{{0, 1}, {}, 10}));
   CHECK(has_bounds(health_policy{{}, {5, 0}, 10}));
 }
-using namespace roscell;
-using namespace std::chrono_literals;
 
 namespace {
 

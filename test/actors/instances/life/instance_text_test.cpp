@@ -61,7 +61,6 @@ TEST_CASE("an unknown exit code is null in the details of a failure") {
   CHECK(json::parse(why.details).at("exit_code").is_null());
   CHECK(why.hint.empty());
 }
-using namespace roscell;
 
 namespace {
 

@@ -80,9 +80,8 @@ TEST_CASE("a stream that is not told of is forgotten") {
   b.table.hear(none, word_zero + 4s);
   CHECK(b.hear(0, 8s).quiet_s == 0);
 }
-namespace roscell::test {
 
-using namespace std::chrono_literals;
+namespace roscell::test {
 
 TEST_CASE("The metrics of a status are found among its words",
           "[skill_metrics]") {
@@ -211,9 +210,6 @@ TEST_CASE("A run's streams have not been quiet before it began",
 }
 
 } // namespace roscell::test
-
-using namespace roscell;
-using namespace std::chrono_literals;
 
 namespace {
 

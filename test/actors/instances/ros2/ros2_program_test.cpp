@@ -47,7 +47,6 @@ TEST_CASE("an instance has the name that the engine gives its participant") {
   CHECK(ros_name("7up") == "_7up");
   CHECK(ros_name("") == "_");
 }
-using namespace roscell;
 
 namespace {
 

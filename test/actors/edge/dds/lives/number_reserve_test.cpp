@@ -84,7 +84,6 @@ TEST_CASE("who cannot write the file says so and goes on") {
   CHECK(said.find("/nonexistent/numbers") != std::string::npos);
   CHECK(numbers.next_count() > 0);
 }
-using namespace roscell;
 
 namespace {
 

@@ -57,7 +57,7 @@ TEST_CASE("a flood of participants costs a bounded table") {
   table.reported_by(8, nth(0));
   CHECK(table.reported_by(8) == found{nth(0)});
 }
-using namespace roscell;
+
 using namespace std::chrono_literals;
 
 namespace {

@@ -152,7 +152,7 @@ TEST_CASE("who is no discovery server goes through as it is") {
   CHECK(goes == message);
   CHECK_FALSE(lives.is_another_server(who));
 }
-using namespace roscell;
+
 using namespace std::chrono_literals;
 
 namespace {

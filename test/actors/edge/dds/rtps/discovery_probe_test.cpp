@@ -41,7 +41,6 @@ TEST_CASE("what is no RTPS datagram is no answer", "[discovery]") {
   bytes[0] = 'X';
   CHECK_FALSE(probe_answer(bytes.data(), bytes.size()));
 }
-using namespace roscell;
 
 TEST_CASE("who is told that there is something asks for all of it, and of "
           "nothing for nothing",
