@@ -32,8 +32,10 @@ struct fitted_table {
   std::vector<size_t> widths; ///< 0: left out.
 };
 
+/// A column of signs has no heading.
 std::string shown_text(const cell& x) {
-  return x.text.empty() ? "-" : printable(x.text);
+  const bool unknown = x.text.empty() && x.how != look::heading;
+  return unknown ? "-" : printable(x.text);
 }
 
 size_t natural_width(const cell& x, const text_style& style) {
