@@ -32,6 +32,7 @@ struct fitted_table {
   std::vector<size_t> widths; ///< 0: left out.
 };
 
+/// A column of signs has no heading.
 std::string shown_text(const cell& x) {
   const bool is_nothing = x.text.empty() && x.how != look::heading;
   return is_nothing ? "-" : printable(x.text);
