@@ -36,6 +36,7 @@ public:
   /// Follows until so much was heard.
   void hear(size_t count, uint64_t since = from_now_on) {
     wanted_ = count;
+    enough_ = {};
     event_follower events{
         [this](const std::string& path, const auto& on_line,
                const http_cancel& cancel) { read(path, on_line, cancel); },
@@ -52,11 +53,13 @@ public:
          }},
         since};
     enough_.get_future().wait();
-    enough_ = {};
   }
 
 private:
+  /// What comes while the follower is being ended is not asked for.
   void note(const std::string& what) {
+    if (heard.size() == wanted_)
+      return;
     heard.push_back(what);
     if (heard.size() == wanted_)
       enough_.set_value();
