@@ -44,7 +44,7 @@ test_data_flow_after_bad_days_of_a_host_with_containers() {
     [kill_host]="the power of a host was cut"
     [shut_down]="a host was shut down")
   [[ $variant != rootless || $(of_matrix suite whole) == whole ]] \
-    || skip "in the whole matrix only (tools/bench/days_bench.sh)"
+    || skip "in the whole matrix only (tools/testing/days.sh)"
   start_day_with_engine
   for what in $(of_matrix "kill_node kill_host shut_down" \
     "stop_node kill_node kill_programs kill_host shut_down"); do

@@ -3,12 +3,12 @@
 #include "tools/bench/allocation_cells.hpp"
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <iomanip>
 #include <iostream>
 #include <optional>
 #include <vector>
@@ -147,24 +147,26 @@ void measure_one(const cell_shape& shape, unsigned seed,
 }
 
 void print(const cell_shape& shape, const metrics& of) {
-  auto cases = static_cast<double>(of.cpu_ms.size());
-  std::cout << std::setprecision(4) << R"({"bench":"allocation","kind":")"
-            << to_string(shape.kind) << R"(","tight":)" << std::boolalpha
-            << shape.tight << R"(,"gpus":)" << shape.gpus << R"(,"steps":)"
-            << shape.steps << R"(,"nodes":)" << shape.nodes << R"(,"cases":)"
-            << cases << R"(,"feasible":)" << of.feasible / cases
-            << R"(,"solved":)" << of.solved / cases << R"(,"median_ms":)"
-            << quantile(of.cpu_ms, 0.5) << R"(,"p99_ms":)"
-            << quantile(of.cpu_ms, 0.99) << R"(,"p99_wall_ms":)"
-            << quantile(of.wall_ms, 0.99) << R"(,"median_branches":)"
-            << quantile(of.branches, 0.5) << R"(,"worst_gap":)"
-            << quantile(of.gap, 1);
+  const auto cases = static_cast<double>(of.cpu_ms.size());
+  nlohmann::json line{{"bench", "allocation"},
+                      {"kind", to_string(shape.kind)},
+                      {"tight", shape.tight},
+                      {"gpus", shape.gpus},
+                      {"steps", shape.steps},
+                      {"nodes", shape.nodes},
+                      {"cases", of.cpu_ms.size()},
+                      {"feasible", of.feasible / cases},
+                      {"solved", of.solved / cases},
+                      {"median_ms", quantile(of.cpu_ms, 0.5)},
+                      {"p99_ms", quantile(of.cpu_ms, 0.99)},
+                      {"p99_wall_ms", quantile(of.wall_ms, 0.99)},
+                      {"median_branches", quantile(of.branches, 0.5)},
+                      {"worst_gap", quantile(of.gap, 1)}};
   if (!of.enumeration_ms.empty())
-    std::cout << R"(,"enumerated":)" << of.enumeration_ms.size()
-              << R"(,"enumeration_median_ms":)"
-              << quantile(of.enumeration_ms, 0.5) << R"(,"differing":)"
-              << of.differing;
-  std::cout << "}" << std::endl;
+    line.update({{"enumerated", of.enumeration_ms.size()},
+                 {"enumeration_median_ms", quantile(of.enumeration_ms, 0.5)},
+                 {"differing", of.differing}});
+  std::cout << line << std::endl;
 }
 
 void measure(const cell_shape& shape, const bench_options& options) {

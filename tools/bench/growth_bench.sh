@@ -24,7 +24,6 @@ while [[ $# -gt 0 ]]; do
   shift
 done
 . tools/bench/on_nodes.sh "$build"
-. tools/bench/idle_nodes.sh
 use_skills
 
 # How many of each kind, how many of it before, and how much each may leave in KiB.

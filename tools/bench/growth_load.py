@@ -19,6 +19,10 @@ ANSWER_S = 120
 PAGE = ["/dashboard/", "/dashboard/main.js", "/dashboard/style.css", "/v1/node"]
 QUESTIONS = ["/v1/cell?resources=now", "/v1/cells", "/v1/tasks", "/v1/skills",
              "/v1/instances", "/v1/topics", "/v1/node"]
+# What is only asked for, and of whom; the member passes on what it is asked.
+QUERIES = {"instances": ("head", "/v1/instances"), "tasks_list": ("head", "/v1/tasks"),
+           "cells": ("head", "/v1/cells"), "metrics": ("head", "/metrics"),
+           "events": ("head", "/v1/events?follow=0"), "passed_on": ("arm", "/v1/tasks")}
 
 
 class WrongAnswer(Exception):
@@ -46,18 +50,19 @@ class Connection(http.client.HTTPConnection):
         """The text of the answer, which has to be 200."""
         body = None if document is None else json.dumps(document)
         try:
-            self.request(method, path, body)
-            answer = self.getresponse()
-            text = answer.read()
+            answer, text = self.answer_to(method, path, body)
         except (http.client.RemoteDisconnected, BrokenPipeError, ConnectionResetError):
             # A node may end a connection between two requests.
             self.close()
-            self.request(method, path, body)
-            answer = self.getresponse()
-            text = answer.read()
+            answer, text = self.answer_to(method, path, body)
         if answer.status != 200:
             raise WrongAnswer(f"{method} {path}: {answer.status} {text[:500]}")
         return text
+
+    def answer_to(self, method, path, body):
+        self.request(method, path, body)
+        answer = self.getresponse()
+        return answer, answer.read()
 
     def get(self, path):
         return self.ask("GET", path)
@@ -67,7 +72,7 @@ class Connection(http.client.HTTPConnection):
 
 
 class Load:
-    """Each method does its kind of work so many times."""
+    """Each method but the first ones does its kind of work so many times."""
 
     def __init__(self, folder, address, first):
         self.folder = folder
@@ -77,7 +82,8 @@ class Load:
     def node(self, name):
         return Connection(f"{self.folder}/{name}/node.sock")
 
-    def repeat(self, path, name, count):
+    def query(self, kind, count):
+        name, path = QUERIES[kind]
         node = self.node(name)
         for _ in range(count):
             node.get(path)
@@ -93,25 +99,6 @@ class Load:
             stranger = Connection(self.address)
             stranger.get("/v1/hello")
             stranger.close()
-
-    def instances(self, count):
-        self.repeat("/v1/instances", "head", count)
-
-    def tasks_list(self, count):
-        self.repeat("/v1/tasks", "head", count)
-
-    def cells(self, count):
-        self.repeat("/v1/cells", "head", count)
-
-    def metrics(self, count):
-        self.repeat("/metrics", "head", count)
-
-    def events(self, count):
-        self.repeat("/v1/events?follow=0", "head", count)
-
-    def passed_on(self, count):
-        """Asked of the member, who passes it on."""
-        self.repeat("/v1/tasks", "arm", count)
 
     def changes(self, count):
         """Waits at the coordinator for what does not happen, asked of the member."""
@@ -195,7 +182,11 @@ def main():
     kind, count, first, folder, address = sys.argv[1:]
     begin = time.monotonic()
     try:
-        getattr(Load(folder, address, int(first)), kind)(int(count))
+        load = Load(folder, address, int(first))
+        if kind in QUERIES:
+            load.query(kind, int(count))
+        else:
+            getattr(load, kind)(int(count))
     except (OSError, http.client.HTTPException, WrongAnswer) as why:
         print(f"growth_load.py: {kind}: {why}", file=sys.stderr)
         return 1

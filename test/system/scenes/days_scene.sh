@@ -13,7 +13,7 @@ declare -A reader_on=([there]=right [from]=left [beside]=head [guest]=head
 streams=(there from beside guest moving)
 
 # of_matrix SUITE WHOLE: what the tests do in the suite, and what where the whole
-# matrix is asked for (tools/bench/days_bench.sh).
+# matrix is asked for (tools/testing/days.sh).
 of_matrix() {
   [[ ${ROSCELL_DAYS:-suite} == whole ]] && echo "$2" || echo "$1"
 }

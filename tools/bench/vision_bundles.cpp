@@ -1,22 +1,19 @@
 #include "skills/pose_estimation/bundle_pose.hpp"
 #include "skills/pose_estimation/tag_pose.hpp"
+#include "tools/bench/vision_modes.hpp"
 #include "tools/render_scenes/picture.hpp"
 #include "tools/render_scenes/scene.hpp"
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <iostream>
 #include <optional>
 #include <random>
 #include <vector>
 
-/// How far poses of a body with four tags, and of one of its tags alone, are
-/// from the truth in rendered pictures.
-namespace {
+namespace roscell::bench {
 
-using namespace roscell;
+namespace {
 
 constexpr auto size_m = 0.1;
 constexpr auto apart_m = 0.3; ///< From middle to middle of two tags.
@@ -71,18 +68,9 @@ double mean(const std::vector<double>& values) {
   return values.empty() ? 0 : sum / static_cast<double>(values.size());
 }
 
-double median(std::vector<double> values) {
-  if (values.empty())
-    return 0;
-  const auto middle =
-      values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-class comparison {
+class bundle_comparison {
 public:
-  explicit comparison(const std::string& family) : sheet_(family, 4) {
+  explicit bundle_comparison(const std::string& family) : sheet_(family, 4) {
     options_.family = family;
     options_.tag_size_m = size_m;
     options_.width = 640;
@@ -132,15 +120,16 @@ private:
   std::optional<pose::tag_detector> detector_;
 };
 
-void print(const comparison& x, const std::string& family) {
+void print_errors(const bundle_comparison& x, const std::string& family) {
   std::cout << nlohmann::json{{"bench", "bundle_of_four"},
                               {"family", family},
                               {"poses", x.body.distance_mm.size()},
                               {"bundle_mean_mm", mean(x.body.distance_mm)},
                               {"single_mean_mm", mean(x.single.distance_mm)},
-                              {"bundle_median_mm", median(x.body.distance_mm)},
+                              {"bundle_median_mm",
+                               quantile(x.body.distance_mm, 0.5)},
                               {"single_median_mm",
-                               median(x.single.distance_mm)},
+                               quantile(x.single.distance_mm, 0.5)},
                               {"bundle_mean_deg", mean(x.body.turn_deg)},
                               {"single_mean_deg", mean(x.single.turn_deg)},
                               {"ratio_mm", mean(x.body.distance_mm)
@@ -150,29 +139,19 @@ void print(const comparison& x, const std::string& family) {
             << std::endl;
 }
 
+void compare_family(const std::string& family, const bundle_options& options) {
+  bundle_comparison result{family};
+  std::mt19937 random{options.seed};
+  for (auto i = 0U; i < options.poses; ++i)
+    result.look(random_pose(random), i);
+  print_errors(result, family);
+}
+
 } // namespace
 
-int main(int argc, char** argv) {
-  CLI::App app{
-      "Errors of the pose of a board with four tags beside those of its "
-      "tags alone,\nin rendered pictures, as a JSON line."};
-  std::string family = "tag36h11";
-  auto poses = 200U;
-  auto seed = 1U;
-  app.option_defaults()->always_capture_default();
-  app.add_option("--family", family, "Of the tags");
-  app.add_option("--poses", poses, "Random poses")
-      ->check(CLI::Range(1, 100'000));
-  app.add_option("--seed", seed, "Another seed gives other poses");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    comparison result{family};
-    std::mt19937 random{seed};
-    for (auto i = 0U; i < poses; ++i)
-      result.look(random_pose(random), i);
-    print(result, family);
-  } catch (const std::exception& e) {
-    std::cerr << "bundle_bench: " << e.what() << '\n';
-    return 1;
-  }
+void compare_errors_of_bundles(const bundle_options& options) {
+  for (const auto& family : options.families)
+    compare_family(family, options);
 }
+
+} // namespace roscell::bench

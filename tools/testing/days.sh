@@ -5,18 +5,18 @@
 # stream the seconds to the first picture from what made it possible, the longest time
 # without one, and how many pictures are missing; then the seconds to the first one
 # after each step was started anew, of the slowest stream. Needs root and some 40
-# minutes. Usage: tools/bench/days_bench.sh BUILD_DIR [PATTERN]
+# minutes. Usage: tools/testing/days.sh BUILD_DIR [PATTERN]
 #
 #   PATTERN  a regular expression; only the tests that match
 set -uo pipefail
 cd "$(dirname "$0")/../.."
-: "${1:?usage: tools/bench/days_bench.sh BUILD_DIR [PATTERN]}"
+: "${1:?usage: tools/testing/days.sh BUILD_DIR [PATTERN]}"
 pattern=${2:-.}
 export ROSCELL_BUILD ROSCELL_DAYS=whole ROSCELL_DAYS_FILE
 # As tools/test.sh has them, which says why.
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=1:new_delete_type_mismatch=0}
 ROSCELL_BUILD=$(realpath "$1")
-ROSCELL_DAYS_FILE=$(mktemp /tmp/roscell-bench.XXXXXX)
+ROSCELL_DAYS_FILE=$(mktemp /tmp/roscell-days.XXXXXX)
 trap 'rm -f "$ROSCELL_DAYS_FILE"' EXIT
 
 # list: what there is to run, as tools/testing/list_system.sh has it.

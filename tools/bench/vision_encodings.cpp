@@ -1,23 +1,20 @@
 #include "roscell/ros2/image_encoding.hpp"
 #include "skills/vision/brightness.hpp"
+#include "tools/bench/vision_modes.hpp"
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <iostream>
 #include <string>
 #include <vector>
 
-/// Times of what makes gray of YUV and Bayer beside those of cv::cvtColor on
-/// the same pixels, on one core. The two take turns, so that both meet the same
-/// state of the machine.
+namespace roscell::bench {
+
 namespace {
 
-using namespace roscell;
 using nanoseconds = std::chrono::nanoseconds;
 
 /// Time of this thread on a processor, whatever else the machine does.
@@ -26,6 +23,9 @@ nanoseconds processor_time() {
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return std::chrono::seconds{now.tv_sec} + nanoseconds{now.tv_nsec};
 }
+
+constexpr auto width = 1920;
+constexpr auto height = 1080;
 
 /// What OpenCV calls an encoding.
 struct rival {
@@ -49,41 +49,28 @@ constexpr rival rivals[] = {
     {"bayer_gbrg16", CV_16UC1, 2, cv::COLOR_BayerGR2GRAY},
 };
 
-double median_us(std::vector<nanoseconds> times) {
-  const auto middle =
-      times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end());
-  return std::chrono::duration<double, std::micro>{*middle}.count();
-}
-
-template <class Work>
-void measure(std::vector<nanoseconds>& times, Work work) {
-  const auto start = processor_time();
-  work();
-  times.push_back(processor_time() - start);
-}
-
-void run(const rival& other, int width, int height, unsigned rounds) {
+void compare_encoding(const rival& other, unsigned rounds) {
   cv::Mat pixels(height * other.thirds / 2, width, other.type);
   cv::RNG random{7};
   random.fill(pixels, cv::RNG::UNIFORM, 0, other.type == CV_16UC1 ? 4096 : 256);
   ros2::image_view image;
-  image.width = static_cast<std::uint32_t>(width);
-  image.height = static_cast<std::uint32_t>(height);
+  image.width = width;
+  image.height = height;
   image.encoding = other.encoding;
   image.step = static_cast<std::uint32_t>(pixels.step);
   image.data = pixels.data;
   image.size = pixels.total() * pixels.elemSize();
   std::vector<std::uint8_t> buffer;
   cv::Mat gray;
-  std::vector<nanoseconds> ours;
-  std::vector<nanoseconds> theirs;
+  std::vector<double> ours;
+  std::vector<double> theirs;
   for (auto i = 0U; i < rounds; ++i) {
-    measure(ours, [&] { vision::to_gray(image, buffer); });
-    measure(theirs, [&] { cv::cvtColor(pixels, gray, other.code); });
+    measure(ours, processor_time, [&] { vision::to_gray(image, buffer); });
+    measure(theirs, processor_time,
+            [&] { cv::cvtColor(pixels, gray, other.code); });
   }
-  const auto own = median_us(ours);
-  const auto opencv = median_us(theirs);
+  const auto own = 1000 * quantile(ours, 0.5);
+  const auto opencv = 1000 * quantile(theirs, 0.5);
   std::cout << nlohmann::json{{"bench", "encoding_to_gray"},
                               {"encoding", other.encoding},
                               {"width", width},
@@ -97,22 +84,10 @@ void run(const rival& other, int width, int height, unsigned rounds) {
 
 } // namespace
 
-int main(int argc, char** argv) {
-  CLI::App app{
-      "Time of vision::to_gray for YUV and Bayer beside cv::cvtColor's, "
-      "on one core, as JSON lines."};
-  auto width = 1920;
-  auto height = 1080;
-  auto rounds = 200U;
-  app.option_defaults()->always_capture_default();
-  app.add_option("--width", width, "Pixels in a row, even")
-      ->check(CLI::Range(2, 16'000));
-  app.add_option("--height", height, "Rows, even")
-      ->check(CLI::Range(2, 16'000));
-  app.add_option("--rounds", rounds, "How often each takes the image")
-      ->check(CLI::Range(1, 100'000));
-  CLI11_PARSE(app, argc, argv);
+void compare_times_of_encodings(unsigned rounds) {
   cv::setNumThreads(1);
   for (const auto& other : rivals)
-    run(other, width, height, rounds);
+    compare_encoding(other, rounds);
 }
+
+} // namespace roscell::bench

@@ -3,12 +3,11 @@
 #include "roscell/ros2/sensor_msgs.hpp"
 #include "roscell/ros2/tf2_msgs.hpp"
 #include "skills/pose_estimation/pose_estimator.hpp"
+#include "skills/pose_estimation/tag_detector.hpp"
 #include "skills/vision/calibration.hpp"
+#include "tools/bench/vision_modes.hpp"
 
-#include <CLI/CLI.hpp>
-
-#include <apriltag/apriltag.h>
-#include <apriltag/tag36h11.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -17,21 +16,11 @@
 #include <iostream>
 #include <sstream>
 
-/// Times, frame by frame, of the skill pose_estimation beside those of the
-/// AprilTag library alone on the same pixels with the same settings. The two
-/// take turns, so that both meet the same state of the machine.
+namespace roscell::bench {
+
 namespace {
 
-using namespace roscell;
 namespace fs = std::filesystem;
-using clock_type = std::chrono::steady_clock;
-
-struct settings {
-  std::vector<std::string> folders;
-  unsigned rounds = 20;
-  float decimation = 2;
-  int threads = 1;
-};
 
 /// A serialized image, and its pixels for the library.
 struct test_frame {
@@ -49,11 +38,10 @@ class discarding_emitter : public engine::emitter {
 /// AprilTag's own loop, without poses.
 class bare_library {
 public:
-  explicit bare_library(const settings& wanted)
-      : family_(tag36h11_create(), tag36h11_destroy),
+  explicit bare_library(const pose_options& wanted)
+      : family_(pose::make_tag_family("tag36h11")),
         detector_(apriltag_detector_create(), apriltag_detector_destroy) {
     detector_->quad_decimate = wanted.decimation;
-    detector_->nthreads = wanted.threads;
     apriltag_detector_add_family_bits(detector_.get(), family_.get(), 0);
   }
 
@@ -68,7 +56,7 @@ public:
   }
 
 private:
-  std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)> family_;
+  pose::tag_family family_;
   std::unique_ptr<apriltag_detector_t, void (*)(apriltag_detector_t*)>
       detector_;
 };
@@ -93,7 +81,7 @@ std::vector<test_frame> load_frames(const std::string& folder) {
   return result;
 }
 
-engine::environment make_environment(const settings& wanted) {
+engine::environment make_environment(const pose_options& wanted) {
   engine::environment env;
   env.inputs = {
       {"ros2", "/image", ros2::sensor_msgs::image::type_name},
@@ -101,30 +89,12 @@ engine::environment make_environment(const settings& wanted) {
   env.outputs = {{"ros2", "/tf", ros2::tf2_msgs::tf_message::type_name},
                  {"ros2", "/detections",
                   ros2::apriltag_msgs::april_tag_detection_array::type_name}};
-  env.parameters = engine::parameters::parse(nlohmann::json{
-      {"decimation", wanted.decimation},
-      {"threads", wanted.threads}}.dump());
+  env.parameters = engine::parameters::parse(
+      nlohmann::json{{"decimation", wanted.decimation}}.dump());
   return env;
 }
 
-/// The time that a share `q` of all frames did not exceed.
-double quantile_ms(std::vector<clock_type::duration> times, double q) {
-  auto rank =
-      static_cast<std::ptrdiff_t>(q * static_cast<double>(times.size() - 1));
-  std::nth_element(times.begin(), times.begin() + rank, times.end());
-  return std::chrono::duration<double, std::milli>{
-      times[static_cast<std::size_t>(rank)]}
-      .count();
-}
-
-template <class Work>
-void measure(std::vector<clock_type::duration>& times, Work work) {
-  auto start = clock_type::now();
-  work();
-  times.push_back(clock_type::now() - start);
-}
-
-void run_scene(const std::string& folder, const settings& wanted) {
+void compare_scene(const std::string& folder, const pose_options& wanted) {
   auto frames = load_frames(folder);
   pose::pose_estimator skill{make_environment(wanted)};
   discarding_emitter output;
@@ -135,54 +105,38 @@ void run_scene(const std::string& folder, const settings& wanted) {
       ros2::serialize(vision::read_calibration(folder + "/camera.json"));
   skill.process(info, output);
   bare_library library{wanted};
-  std::vector<clock_type::duration> of_skill;
-  std::vector<clock_type::duration> of_library;
+  std::vector<double> of_skill;
+  std::vector<double> of_library;
+  const auto wall = std::chrono::steady_clock::now;
   auto tags = 0;
   for (auto round = 0U; round < wanted.rounds; ++round)
     for (auto& frame : frames) {
       engine::frame input;
       input.data_type = ros2::sensor_msgs::image::type_name;
       input.payload = frame.message;
-      measure(of_library, [&] { tags = library.detect(frame.picture); });
-      measure(of_skill, [&] { skill.process(input, output); });
+      measure(of_library, wall, [&] { tags = library.detect(frame.picture); });
+      measure(of_skill, wall, [&] { skill.process(input, output); });
     }
-  auto skill_median = quantile_ms(of_skill, 0.5);
-  auto library_median = quantile_ms(of_library, 0.5);
+  auto skill_median = quantile(of_skill, 0.5);
+  auto library_median = quantile(of_library, 0.5);
   std::cout << nlohmann::json{{"bench", "pose_estimation"},
                               {"scene", fs::path{folder}.filename().string()},
                               {"tags", tags},
                               {"frames", of_skill.size()},
                               {"decimation", wanted.decimation},
                               {"skill_median_ms", skill_median},
-                              {"skill_p99_ms", quantile_ms(of_skill, 0.99)},
+                              {"skill_p99_ms", quantile(of_skill, 0.99)},
                               {"library_median_ms", library_median},
-                              {"library_p99_ms", quantile_ms(of_library, 0.99)},
+                              {"library_p99_ms", quantile(of_library, 0.99)},
                               {"ratio", skill_median / library_median}}
             << std::endl;
 }
 
 } // namespace
 
-int main(int argc, char** argv) {
-  CLI::App app{"Per-frame time of the skill pose_estimation (image message in, "
-               "poses and detections out)\nbeside the AprilTag library's, as "
-               "JSON lines."};
-  settings wanted;
-  app.option_defaults()->always_capture_default();
-  app.add_option("SCENES", wanted.folders, "Folders of render_scenes")
-      ->required();
-  app.add_option("--rounds", wanted.rounds, "How often each frame is taken")
-      ->check(CLI::Range(1, 100'000));
-  app.add_option("--decimation", wanted.decimation, "Of both")
-      ->check(CLI::Range(1.0, 16.0));
-  app.add_option("--threads", wanted.threads, "Of both")
-      ->check(CLI::Range(1, 64));
-  CLI11_PARSE(app, argc, argv);
-  try {
-    for (const auto& folder : wanted.folders)
-      run_scene(folder, wanted);
-  } catch (const std::exception& e) {
-    std::cerr << "pose_bench: " << e.what() << '\n';
-    return 1;
-  }
+void compare_times_of_poses(const pose_options& options) {
+  for (const auto& folder : options.scenes)
+    compare_scene(folder, options);
 }
+
+} // namespace roscell::bench
