@@ -1,8 +1,8 @@
 #include "tools/roscell/shell/follower.hpp"
 
 #include "messages/node.hpp"
-#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
 

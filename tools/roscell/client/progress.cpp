@@ -1,4 +1,4 @@
-#include "tools/roscell/view/progress.hpp"
+#include "tools/roscell/client/progress.hpp"
 
 #include "tools/roscell/view/terminal.hpp"
 

@@ -1,4 +1,4 @@
-#include "tools/roscell/client/event_text.hpp"
+#include "tools/roscell/view/event_text.hpp"
 
 #include "actors/edge/io/node_time.hpp"
 #include "messages/event_kinds.hpp"
