@@ -74,10 +74,10 @@ void withdraw_presence_now(self_pointer self);
 void seek_coordinator(self_pointer self);
 void on_presence_seen(self_pointer self, const node_presence& who);
 void on_presence_gone(self_pointer self, const node_presence& who);
-/// Looks for a place, or waits until a coordinator appears.
+/// Looks for a slot, or waits until a coordinator appears.
 void seek_slot(self_pointer self);
-/// The place that the node asked for came to nothing.
-void forget_place(self_pointer self);
+/// The slot that the node asked for came to nothing.
+void forget_slot(self_pointer self);
 /// An attempt of an orphan came to nothing: where it is announced and where it
 /// was take turns, and who has refused it has no other. Whether the next one is
 /// elsewhere.

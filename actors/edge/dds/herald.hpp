@@ -81,7 +81,7 @@ public:
   introducer& operator=(const introducer&) = delete;
 
   /// The message that introduces. Without one nothing is sent.
-  void set_announcement(std::vector<std::uint8_t> words);
+  void set_announcement(std::vector<std::uint8_t> message);
 
   /// Until `rest`, beginning after that time.
   void seek(const sockaddr_in& server, std::chrono::milliseconds after);

@@ -160,7 +160,7 @@ bool event_filter::takes(const event& e) const {
   return fits(kinds, is_of_kind) && fits(subjects, is_about);
 }
 
-std::string event_filter::words() const {
+std::string event_filter::text() const {
   auto result = kinds.empty() ? "all events" : joined(kinds, ", ");
   if (!subjects.empty())
     result += " of " + joined(subjects, ", ");

@@ -41,9 +41,9 @@ using options_ptr = std::shared_ptr<task_options>;
 json ask_about(const task_options& options, const std::string& task,
                const json& request) {
   const node_client node{options.connection};
-  const auto words = [task](const event& e) { return progress_lines(e, task); };
+  const auto lines = [task](const event& e) { return progress_lines(e, task); };
   return post_with_progress(node, request.dump(),
-                            parse_duration(options.timeout), words);
+                            parse_duration(options.timeout), lines);
 }
 
 /// The same where a refusal has no document to point into.
