@@ -6,7 +6,7 @@
 namespace roscell {
 
 /// A kind of event. Events are published with one of the kinds below, and with
-/// nothing else; docs/protocols.md has them as a table, which
+/// nothing else; docs/events.md has them as a table, which
 /// tools/generate_reference.py makes from this list.
 struct event_kind {
   std::string_view name;      ///< As on the wire, in logs and in histories.

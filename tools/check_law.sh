@@ -76,7 +76,10 @@ if [[ -n $crowded ]]; then
   broken=1
 fi
 
-# Parts of the coordinator know each other in one direction only.
+# Folders that stand beside each other know each other in one direction only.
+python3 tools/check_circles.py || broken=1
+
+# So do the parts of the coordinator.
 if ! circle=$(grep -roE '#include "actors/cell/[^"]+' --include='*.?pp' actors/cell \
   | sed -E 's/^(.*)\.[ch]pp:#include "(.*)\.hpp$/\1 \2/' | awk '$1 != $2' \
   | tsort 2>&1 > /dev/null); then

@@ -7,8 +7,16 @@
 #include <string>
 #include <vector>
 
-/// How the CELL COORDINATOR empties nodes: they take nothing new, and what they
-/// run moves to others as these have room.
+/// How nodes leave: the CELL COORDINATOR drains them, which moves what they run
+/// to others as these have room, and transfers them to another cell or releases
+/// them to none. Drains stand in `st.drains`, transfers in `st.transfers`; both
+/// are on the disk before a node hears of them, and are taken up after a
+/// restart. The states of a transfer are drawn in docs/protocols.md.
+///
+/// Messages: node_drain, node_undrain, node_transfer, node_release and
+/// transfer_query. Errors: unknown_node, unknown_cell, unknown_task (no such
+/// transfer), conflict (the node is departing or reserved, or its instances may
+/// not go), unreachable, timeout and unresolved (the end is not known in time).
 namespace roscell {
 
 /// Takes up what an earlier run of the coordinator has stored.
@@ -22,8 +30,7 @@ caf::result<node_undrained> undrain_node(coordinator_pointer self,
 /// Moves what is due.
 void go_on_draining(coordinator_pointer self);
 
-// What the CELL COORDINATOR does when it is asked to let a node go, to another
-// cell or to independence. The states are drawn in docs/protocols.md.
+// A node is let go, to another cell or to independence.
 
 caf::result<node_transferred> transfer_node(coordinator_pointer self,
                                             const node_transfer& request);
@@ -39,7 +46,7 @@ void restore_transfers(coordinator_pointer self);
 /// Gives up waiting for what is overdue.
 void settle_overdue_transfers(coordinator_pointer self);
 
-// How the CELL COORDINATOR begins to let a member go.
+// The steps of one transfer, in their order.
 
 struct transfer_order {
   std::string node;

@@ -6,7 +6,14 @@
 #include <functional>
 #include <string>
 
-/// What the CELL COORDINATOR asks its members on behalf of who asks it.
+/// Questions that the CELL COORDINATOR passes on to its members: logs of
+/// instances, and metrics of skills. Members at rest send neither by
+/// themselves. Nothing is owned here but `open_questions`, which counts the
+/// answers.
+///
+/// Messages: log_query, kept_logs_query and instance_query. Errors:
+/// unknown_task and unreachable; of many nodes those that do not answer are
+/// left out.
 namespace roscell {
 
 // Logs of instances of a cell, on whichever node they are.
@@ -21,8 +28,7 @@ caf::result<log_excerpt> fetch_log(coordinator_pointer self,
 caf::result<kept_logs> collect_kept_logs(coordinator_pointer self,
                                          const kept_logs_query& query);
 
-// What skills say of themselves, from all nodes of a cell. It is asked for
-// when somebody wants to see it: members at rest send nothing.
+// Metrics of skills, from all nodes of the cell.
 
 /// The instances of the cell with what their skills have last said. Of a node
 /// that is away, or does not answer in time, metrics are left out. What comes
@@ -31,7 +37,7 @@ caf::result<kept_logs> collect_kept_logs(coordinator_pointer self,
 caf::result<instance_description>
 describe_instances_now(coordinator_pointer self, const instance_query& query);
 
-/// The same for all instances, without telling it.
+/// The same for all instances; the answer says only that they are known now.
 caf::result<metrics_collected> collect_all_metrics(coordinator_pointer self);
 
 /// Has the nodes of a task asked, and those that write what it reads, so that

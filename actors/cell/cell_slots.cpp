@@ -56,8 +56,8 @@ place_reservation reservation_for(const place_request& request) {
   return {request.name, request.uuid, request.epoch, span.count()};
 }
 
-void find_place(coordinator_pointer self, const place_request& request,
-                refused_cells refused, promise_type promise);
+void find_slot(coordinator_pointer self, const place_request& request,
+               refused_cells refused, promise_type promise);
 
 void grant_slot_here(coordinator_pointer self, const place_request& request,
                      refused_cells refused, promise_type promise) {
@@ -66,7 +66,7 @@ void grant_slot_here(coordinator_pointer self, const place_request& request,
   if (!kept) {
     refused.uuids.insert(st.setup.self.uuid);
     refused.why = to_failure(kept.error());
-    return find_place(self, request, std::move(refused), std::move(promise));
+    return find_slot(self, request, std::move(refused), std::move(promise));
   }
   st.slots.promise(request.uuid, st.setup.self.uuid, self->clock().now());
   promise.deliver(place_granted{own_address(st.setup)});
@@ -101,12 +101,12 @@ void grant_slot_at(coordinator_pointer self, const std::string& uuid,
             auto others = refused;
             others.uuids.insert(uuid);
             others.why = to_failure(why);
-            find_place(self, request, std::move(others), promise);
+            find_slot(self, request, std::move(others), promise);
           });
 }
 
-void find_place(coordinator_pointer self, const place_request& request,
-                refused_cells refused, promise_type promise) {
+void find_slot(coordinator_pointer self, const place_request& request,
+               refused_cells refused, promise_type promise) {
   const auto uuid = smallest(self->state, refused.uuids);
   if (uuid.empty())
     promise.deliver(no_cell_takes(request, refused));
@@ -116,8 +116,8 @@ void find_place(coordinator_pointer self, const place_request& request,
     grant_slot_at(self, uuid, request, std::move(refused), std::move(promise));
 }
 
-/// The place that the node has been given already, if its cell is still there.
-std::string known_place(coordinator_pointer self, const std::string& node) {
+/// The cell of the slot that the node has got already, if that is still there.
+std::string known_slot(coordinator_pointer self, const std::string& node) {
   auto& st = self->state;
   const auto uuid = st.slots.find(node, self->clock().now());
   const auto* peer = st.peers.find(uuid);
@@ -149,9 +149,9 @@ void grant_now(coordinator_pointer self, const place_request& request,
                promise_type promise) {
   if (const auto* arbiter = slot_arbiter(self->state))
     return ask_slot_arbiter(self, *arbiter, request, std::move(promise));
-  const auto known = known_place(self, request.uuid);
+  const auto known = known_slot(self, request.uuid);
   if (known.empty())
-    find_place(self, request, {}, std::move(promise));
+    find_slot(self, request, {}, std::move(promise));
   else if (known == self->state.setup.self.uuid)
     grant_slot_here(self, request, {}, std::move(promise));
   else

@@ -6,8 +6,16 @@
 #include <string>
 #include <vector>
 
-/// How the CELL COORDINATOR grants slots, so that nodes that come at the
-/// same moment spread evenly. The one with the lowest UUID does it for all.
+/// How the CELL COORDINATOR fills its cell: it grants slots to nodes that look
+/// for one, balances cells, and forms a cell of named nodes. The slots stand in
+/// the slot table (`st.slots`); the coordinator with the lowest UUID grants and
+/// balances for the whole site, so that nodes that come at one moment spread
+/// evenly.
+///
+/// Messages: place_request, place_reservation, member_surrender and
+/// cell_formation, each answered by the function of its group. Errors: conflict
+/// (nothing takes the node, or it is departing), unreachable (the cell that was
+/// to take it has gone) and unknown_node (none of that name is visible).
 namespace roscell {
 
 /// Whether this coordinator is the slot arbiter of the site.
@@ -25,19 +33,18 @@ caf::result<place_reserved> reserve_slot(coordinator_pointer self,
 caf::expected<place_reserved> reserve_here(coordinator_pointer self,
                                            const place_reservation& request);
 
-/// Gives out the places that have waited for sizes which are known now.
+/// Grants the slots that have waited for sizes which are known now.
 void grant_awaited_slots(coordinator_pointer self);
 
 /// What counts when a slot is granted in that cell, or cells are balanced.
 int64_t size_of(const cell_coordinator_state& st, const std::string& uuid,
                 const peer_entry& peer);
 
-/// Drops the places that nobody has taken in time, and gives out those that
-/// have waited for sizes for too long.
+/// Drops the slots that nobody has taken in time, and grants those that have
+/// waited for sizes for too long.
 void settle_overdue_slots(coordinator_pointer self);
 
-// How the CELL COORDINATORS even their cells out after one has appeared or
-// died, or a place was not taken.
+// Cells are balanced after one has appeared or died, or a slot was not taken.
 
 /// A cell as the plan sees it.
 struct cell_size {
@@ -57,13 +64,13 @@ struct cell_move {
 /// keep the remainder, so nobody moves without need.
 std::vector<cell_move> plan_moves(std::vector<cell_size> cells);
 
-/// Evens out if it is time and this coordinator's part.
+/// Balances the cells if it is time and this is the slot arbiter.
 void balance_if_due(coordinator_pointer self);
 
 caf::result<members_surrendered>
 hand_over_members(coordinator_pointer self, const member_surrender& request);
 
-// How the CELL COORDINATOR brings nodes in by their names.
+// A cell is formed of nodes by their names.
 
 caf::result<cell_formed> form_cell(coordinator_pointer self,
                                    const cell_formation& request);

@@ -7,7 +7,10 @@
 
 #include <string>
 
-/// INTERNAL to the container supervisor: how instances leave its table.
+/// INTERNAL to the container supervisor: the steps that its files share, from
+/// the spawning of instances over their logs to their removal. What they change
+/// is in `container_supervisor_state`. Errors: unknown_task; a removal that has
+/// to wait is no error, its reply names the instances that are not stop-safe.
 namespace roscell {
 
 using container_supervisor_pointer =
@@ -41,8 +44,8 @@ caf::result<instances_removed>
 remove_instances(container_supervisor_pointer self,
                  const instance_removal& request);
 
-// INTERNAL to the container supervisor: the actors of its instances and its
-// runtime, from their start over their deaths to their successors.
+// The actors of instances and the runtime, from their start over their deaths
+// to their successors.
 
 /// Makes the actor of an instance. With `adopt` its program may run already;
 /// where that is so and there is a `renewal`, it is started again for that
@@ -77,8 +80,7 @@ void restore(container_supervisor_pointer self);
 /// Ends what no record knows: nobody could ever end it otherwise.
 void end_strays(container_supervisor_pointer self);
 
-// INTERNAL to the container supervisor: logs of its instances, and of those
-// that are gone.
+// Logs of instances, and of those that are gone.
 
 /// A part of the log of an instance, or of the one that was kept of it. Errors:
 /// unknown_task.

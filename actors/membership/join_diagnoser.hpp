@@ -26,7 +26,11 @@ struct join_diagnoser_state {
   std::map<uint64_t, caf::typed_response_promise<server_probed>> addresses;
 };
 
-/// The JOIN SCOUT. Messages: messages/inside/membership.hpp.
+/// The JOIN DIAGNOSER: helps to find out why a cell cannot be joined. It
+/// resolves the coordinator's host name and probes its address, and owns the
+/// questions of both kinds that are open. What it finds, failures too, is an
+/// answer. Messages: resolve_host and probe_server, in
+/// messages/inside/membership.hpp.
 join_diagnoser_actor::behavior_type join_diagnoser(
     join_diagnoser_actor::stateful_pointer<join_diagnoser_state> self,
     const join_diagnoser_config& config);

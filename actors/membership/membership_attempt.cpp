@@ -346,7 +346,7 @@ void attempt_failed(self_pointer self, const std::string& reason,
   // A session that was lost is no attempt.
   if (self->state.phase != phase::joined)
     turn_elsewhere(self, false);
-  forget_place(self);
+  forget_slot(self);
   retreat(self, reason, pause_before_next(self->state));
 }
 
@@ -365,7 +365,7 @@ void attempt_refused(self_pointer self, const std::string& reason,
   }
   const bool elsewhere = turn_elsewhere(self, true);
   const bool asked = st.phase == phase::asking;
-  forget_place(self);
+  forget_slot(self);
   // Who announces himself as a coordinator and refuses, because he is of
   // another site, keeps nobody from asking the next one.
   if (elsewhere)

@@ -222,7 +222,7 @@ void seek_slot(self_pointer self) {
   set_timer(self);
 }
 
-void forget_place(self_pointer self) {
+void forget_slot(self_pointer self) {
   auto& st = self->state;
   if (!st.asked.empty() && st.phase == phase::asking)
     st.coordinators.mark_unresponsive(st.asked);

@@ -46,8 +46,7 @@ bool is_current(self_pointer self, uint64_t attempt, membership_phase where);
 /// rest; hundreds of whole rows would not fit into one frame.
 void shorten(instance_row& row);
 
-// -- membership_diagnosis.cpp: why nobody answers
-// ------------------------------
+// -- membership_diagnosis.cpp: why nobody answers -----------------------------
 
 /// Has the discovery server looked for whose address, or name, is wanted.
 void find_server(self_pointer self);
@@ -65,7 +64,7 @@ void complain(self_pointer self, const std::string& problem,
 caf::result<request_routed> pass_on(self_pointer self,
                                     const route_request& request);
 
-// -- membership_slots.cpp: being seen, seeing others, asking for a slot -----
+// -- membership_slots.cpp: being seen, seeing others, asking for a slot -------
 
 /// Announces the node as independent or orphaned.
 void show_presence(self_pointer self);
@@ -75,10 +74,10 @@ void withdraw_presence_now(self_pointer self);
 void seek_coordinator(self_pointer self);
 void on_presence_seen(self_pointer self, const node_presence& who);
 void on_presence_gone(self_pointer self, const node_presence& who);
-/// Looks for a place, or waits until a coordinator appears.
+/// Looks for a slot, or waits until a coordinator appears.
 void seek_slot(self_pointer self);
-/// The place that the node asked for came to nothing.
-void forget_place(self_pointer self);
+/// The slot that the node asked for came to nothing.
+void forget_slot(self_pointer self);
 /// An attempt of an orphan came to nothing: where it is announced and where it
 /// was take turns, and who has refused it has no other. Whether the next one is
 /// elsewhere.
@@ -137,8 +136,7 @@ uint16_t program_port(const membership_status& st);
 std::map<std::string, std::string>
 program_environment(const membership_status& st);
 
-// -- membership_session.cpp: what the coordinator says of its instances
-// --------
+// -- membership_session.cpp: verdicts of the coordinator on instances ---------
 
 /// Stops and starts what the coordinator has decided on.
 void apply(self_pointer self, const std::vector<instance_verdict>& verdicts);

@@ -104,7 +104,7 @@ void find_limits(const node_config& config, const std::string& node_uuid,
   }
   chosen.cgroups = find_cgroup_place(
       {config.cgroup, node_uuid, ::geteuid() == 0}, see_cgroups());
-  chosen.limits = chosen.cgroups.words;
+  chosen.limits = chosen.cgroups.text;
 }
 
 std::function<runtime_actor(container_listener_actor)>

@@ -4,23 +4,8 @@
 
 #include <catch2/catch.hpp>
 
-#include <algorithm>
-
 using namespace roscell::cli;
 using roscell::test::widest_line;
-
-TEST_CASE("a box stands below those that it gets something from", "[tools]") {
-  using sizes = std::vector<size_t>;
-  CHECK(layers(3, {{0, 1}, {1, 2}, {0, 2}}) == sizes{0, 1, 2});
-  CHECK(layers(2, {}) == sizes{0, 0});
-  CHECK(layers(3, {{2, 1}, {1, 0}}) == sizes{2, 1, 0});
-}
-
-TEST_CASE("arrows in a circle end all the same", "[tools]") {
-  using sizes = std::vector<size_t>;
-  CHECK(layers(2, {{0, 1}, {1, 0}}) == sizes{0, 1});
-  CHECK(layers(1, {{0, 0}}) == sizes{0});
-}
 
 TEST_CASE("a lane leads from where something goes out to all that read it",
           "[tools]") {

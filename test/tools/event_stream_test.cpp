@@ -1,4 +1,4 @@
-#include "tools/roscell/client/event_text.hpp"
+#include "tools/roscell/view/event_text.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -5,7 +5,7 @@
 #include "schemas/message_catalogue.hpp"
 #include "test/actors/placement/reading/pipelines.hpp"
 #include "tools/roscell/exit_code.hpp"
-#include "tools/roscell/tasks/task_view.hpp"
+#include "tools/roscell/view/task_replies.hpp"
 
 #include <catch2/catch.hpp>
 

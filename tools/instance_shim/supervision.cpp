@@ -101,11 +101,11 @@ bool drain(int output, log_files& log) {
   return n > 0 || (n < 0 && errno == EINTR);
 }
 
-void say(supervision& x, const char* words) {
+void say(supervision& x, const char* text) {
   if (x.log != nullptr)
-    x.log->write(words, std::strlen(words));
+    x.log->write(text, std::strlen(text));
   else
-    ::dprintf(STDERR_FILENO, "%s", words);
+    ::dprintf(STDERR_FILENO, "%s", text);
 }
 
 /// Whoever has a process group of its own has not heard the child's, and what a

@@ -151,8 +151,8 @@ std::string move_table::waits_on(const std::string& node) const {
   for (const auto& [id, x] : moves_)
     for (const auto& step : x.steps)
       if (step.node == node)
-        if (auto words = step_progress_text(step); !words.empty())
-          return words;
+        if (auto text = step_progress_text(step); !text.empty())
+          return text;
   return "";
 }
 

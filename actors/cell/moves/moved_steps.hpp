@@ -11,7 +11,11 @@
 #include <string>
 #include <vector>
 
-/// INTERNAL to moves and restarts: instances that take the places of others.
+/// INTERNAL to moves and restarts: one move, from its steps over their
+/// placement to its end. `task_move` carries what its messages need, shared by
+/// their continuations; the stage that each step is in stands in the move
+/// table. `run_move` is where it begins, and its `done` is called once,
+/// whatever happens.
 namespace roscell {
 
 /// One instance that takes another one's place.
@@ -88,7 +92,7 @@ void bind_together(const std::string& task, std::vector<resolved_step>& steps);
 /// The same for all steps of a move, whose tasks have numbers of their own.
 void keep_together(task_move& move);
 
-// How moves end, as a whole or step by step.
+// The end of a move, as a whole or step by step.
 
 /// All of it is done, or needs nothing any more.
 void end_move(coordinator_pointer self, const move_ptr& move);
@@ -118,7 +122,7 @@ void undo_move(coordinator_pointer self, const move_ptr& move);
 /// them. What has not come up is placed once more.
 void complete_lost(coordinator_pointer self, const move_ptr& move);
 
-// Where what moves goes.
+// The placement of a move.
 
 /// Finds places for the steps, and has the members keep room. Then comes
 /// `next`, while the placement lock is held; or the move has failed.
@@ -128,8 +132,7 @@ void complete_lost(coordinator_pointer self, const move_ptr& move);
 void place_move(coordinator_pointer self, const move_ptr& move,
                 move_stage_handler next);
 
-// INTERNAL to moves and restarts: one move from the search for places to its
-// end, as the move table says.
+// The whole move, stage by stage.
 
 /// The move has the placement lock, and its steps. `done` is called once, with
 /// the first problem or null; each stage ends, at the latest with its deadline.

@@ -93,10 +93,10 @@ struct cell_coordinator_state {
   unassigned_node_table unassigned_nodes;
   slot_table slots;
   transfer_table transfers;
-  /// When cells are to be looked at for evening out; max(): not at all.
+  /// When cells are to be balanced, if their sizes differ; max(): not at all.
   std::chrono::steady_clock::time_point balance_due =
       std::chrono::steady_clock::time_point::max();
-  size_t balancing = 0;        ///< Cells that are asked to give up members.
+  size_t balancing = 0;        ///< Cells that are asked to hand over members.
   request_router_actor router; ///< Of this node; invalid while it starts.
   alarm timer;
 };

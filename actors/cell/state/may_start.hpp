@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
-/// What whoever starts an instance asks first, and how the node failure table
-/// hears of events. Nothing of a step is started while another instance of it
-/// may run.
+/// Whether an instance may be started now: nothing of a step is while another
+/// instance of it may run. Whoever starts one asks here first; the node failure
+/// table (`st.failures`) knows what may run where, these functions publish to
+/// it what starts and ends, and write to the store what outlives its task.
 namespace roscell {
 
 /// Whether it may be placed anew where its node is lost.

@@ -5,7 +5,9 @@
 #include <chrono>
 #include <functional>
 
-/// The discovery servers of members, as the cell's own one sees them.
+/// Whether members are there, beyond their lease: their discovery servers as
+/// the cell's own one sees them, and nodes that say in public that they are in
+/// no cell while they have a row here. Neither has a table of its own.
 namespace roscell {
 
 /// The session with a member begins: its discovery server, if it has one, is
@@ -25,7 +27,7 @@ void follow_member_server(coordinator_pointer self, const registry_entry& entry,
 /// on.
 void doubt_silent_host(coordinator_pointer self, const registry_entry& entry);
 
-// On whose public word a row of this cell hangs.
+// Rows that an announcement puts in doubt.
 
 /// Whether a node with a row that is not active here says that it is in no
 /// cell. It may have been released when nobody could tell; or an

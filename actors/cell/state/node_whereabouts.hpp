@@ -6,8 +6,12 @@
 #include <functional>
 #include <string>
 
-/// What the CELL COORDINATOR does when it learns where a node is that it has,
-/// or had, a row for.
+/// Where nodes are, as the CELL COORDINATOR learns it: a node that turns up
+/// elsewhere or comes back ends its transfer and settles who waits for it; and
+/// which node of which cell an operator means by a name. The state is in the
+/// registry, `st.transfers`, `st.slots` (arrivals) and `st.peers`. Errors of
+/// who waits: conflict, unreachable and unresolved; of names: conflict (several
+/// cells have one), unknown_node and unknown_cell.
 namespace roscell {
 
 /// An event: the node has this epoch in another cell, or in none if `cell` is

@@ -99,7 +99,7 @@ void deployment_table::note_all_rows(const std::string& node,
 }
 
 void deployment_table::note_status_texts(
-    const std::string& node, const std::vector<instance_status_text>& words) {
+    const std::string& node, const std::vector<instance_status_text>& texts) {
   const auto known = reported_.find(node);
   if (known == reported_.end())
     return;
@@ -107,7 +107,7 @@ void deployment_table::note_status_texts(
   for (auto& [id, row] : rows)
     if (is_live(row.state))
       row.metrics = {};
-  for (const auto& word : words) {
+  for (const auto& word : texts) {
     const auto row = rows.find(word.instance);
     if (row == rows.end() || !is_live(row->second.state))
       continue;

@@ -83,7 +83,7 @@ public:
   /// of a live instance is not known any more. What was told of one that has
   /// ended is final.
   void note_status_texts(const std::string& node,
-                         const std::vector<instance_status_text>& words);
+                         const std::vector<instance_status_text>& texts);
 
   /// An instance that no task has placed is gone.
   void forget_reported(const std::string& node, const std::string& instance);

@@ -24,17 +24,17 @@ struct awaited_sizes {
   std::function<void()> done;
 };
 
-/// The places that this coordinator has given out in other cells, and who waits
-/// for what about places. A place counts from the question whether a cell keeps
+/// The slots that this coordinator has granted in other cells, and who waits
+/// for what about slots. A slot counts from the question whether a cell keeps
 /// it until the node is seen there, so that nodes that come at the same moment
 /// spread evenly. Pure: it is told the time.
 class slot_table {
 public:
   using time_point = std::chrono::steady_clock::time_point;
 
-  // -- places -----------------------------------------------------------------
+  // -- slots ------------------------------------------------------------------
 
-  /// Counts at once. One that the node had elsewhere is given up.
+  /// Counts at once. One that the node had elsewhere is dropped.
   void promise(const std::string& node, const std::string& coordinator,
                time_point now);
 
@@ -42,10 +42,10 @@ public:
   void forget(const std::string& node);
   void forget(const std::string& node, const std::string& coordinator);
 
-  /// The coordinator that has a place for the node; empty if none has.
+  /// The coordinator that has a slot for the node; empty if none has.
   std::string find(const std::string& node, time_point now) const;
 
-  /// How many places there are in a cell, without the nodes that are counted
+  /// How many slots there are in a cell, without the nodes that are counted
   /// there already.
   int64_t count_at(
       const std::string& coordinator,

@@ -6,9 +6,14 @@
 #include <string>
 #include <vector>
 
-/// What the CELL COORDINATOR does about tasks that are deployed: the intent,
-/// the claim of their names, and the word that all steps run. How they end is
-/// in task_endings.hpp.
+/// The life of a task up to the moment when all its steps run, and again after
+/// some have ended: the claim of its name, the intent to deploy it, preemption
+/// for it, healing and restart. Tasks stand in `st.tasks`, their instances in
+/// `st.deployments`. How a task ends is in task_endings.hpp.
+///
+/// Messages: claim_task, record_intent, record_running, record_failure,
+/// preempt_instances and task_restart. Errors: task_exists, conflict,
+/// unknown_task, no_feasible_allocation, and those of the store and of nodes.
 namespace roscell {
 
 /// Takes up the tasks that an earlier run of the coordinator has stored.
@@ -28,21 +33,20 @@ caf::result<task_rolled_back> undo_deployment(coordinator_pointer self,
 /// A pipeline has ended: what it was deploying is rolled back.
 void on_pipeline_down(coordinator_pointer self, const caf::actor_addr& gone);
 
-// How the CELL COORDINATOR answers who wants a task to run: it takes the
-// placement lock, or hears how the task stands. The table is in
-// docs/protocols.md, "A task".
+// Who wants a task to run gets the placement lock, or the task's status. The
+// table is in docs/protocols.md, "A task".
 
 /// Errors: task_exists (another body), conflict (it is being terminated, too
 /// many wait, or something of its name may still run), and those of healing.
 caf::result<task_claimed> claim_placement_lock(coordinator_pointer self,
                                                const claim_task& request);
 
-/// How a task stands that is known.
+/// The status of a task that is known.
 task_claimed known_reply(const cell_coordinator_state& st,
                          const std::string& task);
 
-// How the CELL COORDINATOR preempts for a task of higher priority: what goes
-// is ended, once it is stop-safe, and started again where there is still room.
+// Preemption for a task of higher priority: what is preempted is ended, once it
+// is stop-safe, and started again where there is still room.
 
 /// Ends these instances, whose room a task that is being deployed holds
 /// already, and replies once they are gone.
@@ -59,8 +63,8 @@ void restore_orders(coordinator_pointer self);
 /// Meanwhile it may be started by somebody else, or its task be terminated.
 void start_due_again(coordinator_pointer self);
 
-// How the CELL COORDINATOR starts again what has ended, or what somebody wants
-// to begin anew.
+// Healing and restart: what has ended is started again, or what an operator
+// wants to begin anew.
 
 /// The steps of a task that have ended otherwise than with 0, and those whose
 /// node has gone from the cell.

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <functional>
 
-/// Whatever is placed takes the placement lock, so that two never count on the
-/// same resources: it is held until what was placed is reserved.
+/// The placement lock, and the resources that a placement may count on.
+/// Whatever is placed takes the lock and holds it until what was placed is
+/// reserved, so that two never count on the same resources. Who holds it and
+/// who waits is in `st.pending`; it is granted in the order of the requests.
 namespace roscell {
 
 /// Calls `begin` with the number of the lock when it is granted: at once when
@@ -19,7 +21,7 @@ void release_placement_lock(coordinator_pointer self, uint64_t number);
 /// An owner that is gone waits no more.
 void leave_line(coordinator_pointer self, const caf::actor_addr& owner);
 
-// What the cell has to offer when something is to be placed.
+// The resources of the cell, as its nodes report them.
 
 /// Asks every active node for its resources, and takes off what is held for
 /// instances that the nodes do not know of yet. A node that does not answer in

@@ -8,8 +8,11 @@
 #include <optional>
 #include <string>
 
-/// What the CELL COORDINATOR makes of the ends of steps: they are written down,
-/// and so is what becomes of their task.
+/// The ends of steps, by themselves and by order of the CELL COORDINATOR. Ends
+/// are written to the task's record, and with the last one what has become of
+/// the task. An order (`ordered_stop`) is on the disk before the node hears of
+/// it, so that the end means the same after a restart; it stands in
+/// `st.orders` until it is fulfilled or taken back.
 namespace roscell {
 
 /// Takes what the nodes have told of a task's ends into its record.
@@ -26,9 +29,8 @@ void record_forced_end(coordinator_pointer self, const std::string& task,
 /// oldest of these. Nothing happens while a step of it runs.
 void settle_ended(coordinator_pointer self, const std::string& task);
 
-// How the CELL COORDINATOR ends instances that have not done their work, to
-// start them again, elsewhere, or later. The order is on disk before the node
-// hears of it, so that its end means the same after a restart.
+// Ends by order: of instances that have not done their work, to start them
+// again, elsewhere, or later.
 
 enum class stop_outcome {
   ended,     ///< It surely runs no more.

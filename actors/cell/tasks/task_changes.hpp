@@ -4,8 +4,10 @@
 
 #include <string>
 
-/// How what changes of a task gets on disk: one change of a task after the
-/// other, and the tables show it when the store has kept it.
+/// Changes of stored tasks. Those of one task are written one after the other
+/// (`st.pending.lines`), and the tables show a change once the store has
+/// persisted it; what the store refuses is retried. A node that gets another
+/// name changes all tasks that run on it.
 namespace roscell {
 
 /// Writes a change once those before it are done.
@@ -15,11 +17,11 @@ void change_task(coordinator_pointer self, const std::string& task,
 /// Tries the first change of a task again at once, if it waits for that.
 void retry_change(coordinator_pointer self, const std::string& task);
 
-/// Tries again what the store did not keep.
+/// Retries what the store has not persisted.
 void retry_due_changes(coordinator_pointer self);
 
-// How what is placed on a node stays with it under another name: the CELL
-// COORDINATOR knows nodes by their UUIDs, and its tasks know them by name.
+// The registry knows nodes by their UUIDs, and tasks know them by name: what is
+// placed on a node stays with it under another name.
 
 /// A node of the cell has another name from now on. It keeps what it runs.
 void rename_node(coordinator_pointer self, const std::string& from,

@@ -2,6 +2,7 @@
 
 #include "actors/cell/moves/abandoned_steps.hpp"
 #include "actors/cell/streams/cell_streams.hpp"
+#include "actors/cell/tasks/step_order.hpp"
 
 #include "messages/failure.hpp"
 
@@ -67,6 +68,7 @@ task_row describe_task(const cell_coordinator_state& st,
                   entry.run};
   for (const auto& x : st.deployments.of_task(task))
     result.instances.push_back(shown(st, st.deployments.row_of(x)));
+  sort_by_flow(result.instances);
   return result;
 }
 

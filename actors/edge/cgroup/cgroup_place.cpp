@@ -121,11 +121,11 @@ void say_what_it_is(cgroup_place& x) {
   std::set<std::string> all;
   for (const auto& parent : x.parents)
     all.insert(parent.controllers.begin(), parent.controllers.end());
-  x.words = "cgroup v" + std::to_string(x.version) + " in "
-            + x.parents.front().folder.string() + ": "
-            + (all.empty() ? "nothing is bounded" : list(all));
+  x.text = "cgroup v" + std::to_string(x.version) + " in "
+           + x.parents.front().folder.string() + ": "
+           + (all.empty() ? "nothing is bounded" : list(all));
   if (!x.has("memory") && !all.empty())
-    x.words += ", but not memory";
+    x.text += ", but not memory";
 }
 
 /// The hierarchies of one place that can be written.

@@ -22,7 +22,7 @@ struct cgroup_parent {
 struct cgroup_place {
   int version = 0; ///< Of cgroups; 0: nowhere.
   std::vector<cgroup_parent> parents;
-  std::string words; ///< What it is, or why there is none, for people.
+  std::string text; ///< What it is, or why there is none, for people.
 
   bool has(const std::string& controller) const;
 };
@@ -62,7 +62,7 @@ void remove_place(const cgroup_place& place);
 
 /// Makes the node's folder in the first place where it can, and turns on there
 /// what limits instances; empty folders of other nodes go. Fails never: the
-/// words say why there is none.
+/// text says why there is none.
 cgroup_place find_cgroup_place(const cgroup_request& request,
                                const cgroup_sight& sight);
 

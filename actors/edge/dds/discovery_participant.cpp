@@ -1,7 +1,7 @@
 #include "actors/edge/dds/discovery_participant.hpp"
 
 #include "actors/edge/dds/announcement.hpp"
-#include "actors/edge/dds/rtps/discovery_transport.hpp"
+#include "actors/edge/dds/discovery_transport.hpp"
 
 #include <fastdds/rtps/RTPSDomain.h>
 #include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>

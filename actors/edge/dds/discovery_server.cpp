@@ -188,10 +188,10 @@ private:
   bool learn_announcement(const cell_server_options& options) {
     server_readiness own{*to_socket_address(options.address, port_),
                          [this] { participant_->announce(); }};
-    auto words = own.wait(ready_limit);
-    if (!words)
+    auto introduction = own.wait(ready_limit);
+    if (!introduction)
       return false;
-    introducer_->set_announcement(*std::move(words));
+    introducer_->set_announcement(*std::move(introduction));
     return true;
   }
 

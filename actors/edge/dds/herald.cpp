@@ -77,9 +77,9 @@ introducer::introducer(udp_socket socket)
   // nop
 }
 
-void introducer::set_announcement(std::vector<std::uint8_t> words) {
+void introducer::set_announcement(std::vector<std::uint8_t> message) {
   std::lock_guard<std::mutex> lock{mutex_};
-  announcement_ = std::move(words);
+  announcement_ = std::move(message);
 }
 
 void introducer::seek(const sockaddr_in& server,

@@ -11,7 +11,11 @@
 #include <mutex>
 #include <vector>
 
-/// INTERNAL to this folder.
+/// INTERNAL to this folder: what a participant says again without being asked
+/// anew. A `herald` repeats an announcement after it was asked for; an
+/// `introducer` repeats a server's introduction to another one until that is
+/// known. Each owns a timer on the DDS thread; failures to send are ignored,
+/// because the next repetition follows.
 namespace roscell {
 
 /// Says the same thing again after somebody asked for it, so that whoever
@@ -61,8 +65,6 @@ private:
   std::unique_ptr<dds_thread::entry> timer_; // Null: it does not serve.
 };
 
-// INTERNAL to actors/edge/dds.
-
 /// Introduces a discovery server to another one until that one is known. Fast
 /// DDS by itself does so ten times a second, for ever, to each server that it
 /// has ever been told of.
@@ -79,7 +81,7 @@ public:
   introducer& operator=(const introducer&) = delete;
 
   /// The message that introduces. Without one nothing is sent.
-  void set_announcement(std::vector<std::uint8_t> words);
+  void set_announcement(std::vector<std::uint8_t> message);
 
   /// Until `rest`, beginning after that time.
   void seek(const sockaddr_in& server, std::chrono::milliseconds after);

@@ -245,12 +245,12 @@ server_seeker::receive(const udp_socket& socket) {
 void server_seeker::answer(const udp_socket& socket,
                            std::vector<std::uint8_t>& datagram) {
   for (const auto& self : asked_) {
-    const auto words =
+    const auto message =
         heartbeat_answer(self, answers_ + 1, datagram.data(), datagram.size());
-    if (words.empty())
+    if (message.empty())
       continue;
     ++answers_;
-    send(socket, words);
+    send(socket, message);
   }
 }
 

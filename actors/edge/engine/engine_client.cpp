@@ -144,9 +144,9 @@ constexpr std::array<std::pair<const char*, const char*>, 3> remedies{{
      "cdi generate --output=/etc/cdi/nvidia.yaml"},
 }};
 
-std::string remedy_for(const std::string& words) {
+std::string remedy_for(const std::string& message) {
   for (const auto& [complaint, remedy] : remedies)
-    if (words.find(complaint) != std::string::npos)
+    if (message.find(complaint) != std::string::npos)
       return remedy;
   return {};
 }
@@ -175,13 +175,13 @@ edge_error not_permitted(const std::string& socket, const std::string& where) {
 } // namespace
 
 edge_error engine_refusal(const std::string& what, const engine_reply& reply) {
-  auto words = valid_utf8(shortened(message_in(reply.body)));
-  while (!words.empty() && (words.back() == '\n' || words.back() == '.'))
-    words.pop_back();
-  if (words.empty())
-    words = "HTTP status " + std::to_string(reply.status);
-  auto remedy = remedy_for(words);
-  return {error_code::engine_failed, what + ": " + words, std::move(remedy)};
+  auto message = valid_utf8(shortened(message_in(reply.body)));
+  while (!message.empty() && (message.back() == '\n' || message.back() == '.'))
+    message.pop_back();
+  if (message.empty())
+    message = "HTTP status " + std::to_string(reply.status);
+  auto remedy = remedy_for(message);
+  return {error_code::engine_failed, what + ": " + message, std::move(remedy)};
 }
 
 edge_error no_engine(const std::string& socket, int error_number) {

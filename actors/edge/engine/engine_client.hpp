@@ -12,6 +12,10 @@
 
 namespace roscell {
 
+/// What Podman's own API begins with, at its version. All that Docker's API
+/// has, too, is asked without a version, and answered in the engine's own one.
+inline constexpr const char* podman_api = "/v4.0.0/libpod";
+
 /// One request to a container engine.
 struct engine_request {
   std::string method = "GET";

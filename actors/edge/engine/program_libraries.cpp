@@ -138,12 +138,13 @@ std::optional<needed_library> parse_lacking_version(std::string_view line) {
 
 } // namespace
 
-std::vector<needed_library> parse_library_list(std::string_view words) {
+std::vector<needed_library> parse_library_list(std::string_view listing) {
   std::vector<needed_library> result;
-  while (!words.empty()) {
-    const auto end = words.find('\n');
-    const auto line = words.substr(0, end);
-    words.remove_prefix(end == std::string_view::npos ? words.size() : end + 1);
+  while (!listing.empty()) {
+    const auto end = listing.find('\n');
+    const auto line = listing.substr(0, end);
+    listing.remove_prefix(end == std::string_view::npos ? listing.size()
+                                                        : end + 1);
     auto found = parse_library(line);
     if (!found)
       found = parse_lacking_version(line);
@@ -190,12 +191,12 @@ std::map<std::string, std::string> linker_environment() {
 
 /// What the dynamic linker says of a program or library.
 edge_result<std::vector<needed_library>> list_libraries(const fs::path& path) {
-  auto words =
+  auto listing =
       run_program({own_linker(), {path.string()}, linker_environment()},
                   limits::engine::linker, max_listing_bytes);
-  if (auto* error = std::get_if<edge_error>(&words))
+  if (auto* error = std::get_if<edge_error>(&listing))
     return std::move(*error);
-  return parse_library_list(std::get<std::string>(words));
+  return parse_library_list(std::get<std::string>(listing));
 }
 
 } // namespace

@@ -189,8 +189,8 @@ bool http_connection::on_header() {
 void http_connection::refuse_crowd() {
   if (!parser_)
     parser_.emplace();
-  const auto words = crowd_error();
-  refuse_request(503, words.code, words.message, words.hint);
+  const auto refusal = crowd_error();
+  refuse_request(503, refusal.code, refusal.message, refusal.hint);
 }
 
 bool http_connection::check_body(size_t most_bytes) {

@@ -17,9 +17,10 @@ namespace {
 using listener = std::function<void(const notification&)>;
 
 void hear(int socket, const listener& on_notification) {
-  const auto words = receive_notifications(socket);
-  if (words.ready || words.alive || words.stopping || !words.status.empty())
-    on_notification(words);
+  const auto notified = receive_notifications(socket);
+  if (notified.ready || notified.alive || notified.stopping
+      || !notified.status.empty())
+    on_notification(notified);
 }
 
 } // namespace
@@ -45,7 +46,8 @@ void hear_notifications(const std::shared_ptr<io_core>& core,
 
 child_watch::child_watch(const std::shared_ptr<io_core>& core, shared_fd pidfd,
                          shared_fd notify_socket, callbacks calls) {
-  words_ = watch_notifications(core, notify_socket, calls.on_notification);
+  notifications_ =
+      watch_notifications(core, notify_socket, calls.on_notification);
   const auto shared = std::make_shared<const callbacks>(std::move(calls));
   end_ = fd_watch{core, std::move(pidfd), [notify_socket, shared] {
                     // What the program said last must not come after its end.

@@ -39,7 +39,7 @@ public:
 
 private:
   fd_watch end_;
-  fd_watch words_;
+  fd_watch notifications_;
 };
 
 /// Calls back on the io thread when a file in a folder is made, written to or

@@ -20,7 +20,7 @@ namespace roscell {
 namespace {
 
 /// Most of what a program says of its failure.
-constexpr size_t max_words_bytes = 2048;
+constexpr size_t max_text_bytes = 2048;
 
 edge_error failed(const program& what, const std::string& why) {
   return {error_code::engine_failed,
@@ -99,7 +99,7 @@ bool await_input(int fd, deadline end) {
 
 /// Reads until the other end is closed, and keeps so much of it. Returns false
 /// when time runs out.
-bool read_words(int fd, deadline end, size_t max_bytes, std::string& words) {
+bool read_text(int fd, deadline end, size_t max_bytes, std::string& text) {
   while (await_input(fd, end)) {
     std::array<char, 4096> buffer;
     const auto n = ::read(fd, buffer.data(), buffer.size());
@@ -107,8 +107,8 @@ bool read_words(int fd, deadline end, size_t max_bytes, std::string& words) {
       continue;
     if (n <= 0)
       return true;
-    const auto room = max_bytes - words.size();
-    words.append(buffer.data(), std::min(static_cast<size_t>(n), room));
+    const auto room = max_bytes - text.size();
+    text.append(buffer.data(), std::min(static_cast<size_t>(n), room));
   }
   return false;
 }
@@ -123,9 +123,9 @@ int exit_code(int pidfd) {
   return info.si_code == CLD_EXITED ? info.si_status : 128 + info.si_status;
 }
 
-std::string trimmed(const std::string& words) {
-  const auto end = words.find_last_not_of(" \n\r\t");
-  return valid_utf8(words.substr(0, end == std::string::npos ? 0 : end + 1));
+std::string trimmed(const std::string& text) {
+  const auto end = text.find_last_not_of(" \n\r\t");
+  return valid_utf8(text.substr(0, end == std::string::npos ? 0 : end + 1));
 }
 
 /// What hangs in the kernel does not even die of SIGKILL: after so much time
@@ -144,8 +144,8 @@ void kill_and_reap(int pidfd) {
 void kill_and_reap(pid_t pid, int output) {
   ::kill(pid, SIGKILL);
   std::string unread;
-  read_words(output, std::chrono::steady_clock::now() + last_patience, 0,
-             unread);
+  read_text(output, std::chrono::steady_clock::now() + last_patience, 0,
+            unread);
   ::waitpid(pid, nullptr, WNOHANG);
 }
 
@@ -186,17 +186,17 @@ edge_result<spawned_program> spawn_program(const program& what,
     return std::move(*error);
   auto& [child, output] = std::get<speaking_child>(started);
   const auto end = std::chrono::steady_clock::now() + limit;
-  std::string words;
-  if (!read_words(output.get(), end, max_words_bytes, words)) {
+  std::string text;
+  if (!read_text(output.get(), end, max_text_bytes, text)) {
     kill_and_reap(child.pidfd.get());
     return failed(what, "it did not start in time");
   }
-  if (words.empty())
+  if (text.empty())
     return std::move(child);
   // Files are closed before the end of a process can be seen.
   await_input(child.pidfd.get(), end);
   kill_and_reap(child.pidfd.get());
-  return failed(what, trimmed(words));
+  return failed(what, trimmed(text));
 }
 
 edge_result<std::string> run_program(const program& what,
@@ -207,8 +207,8 @@ edge_result<std::string> run_program(const program& what,
     return std::move(*error);
   auto& [child, output] = std::get<speaking_child>(started);
   const auto end = std::chrono::steady_clock::now() + limit;
-  std::string words;
-  const bool in_time = read_words(output.get(), end, max_bytes, words)
+  std::string text;
+  const bool in_time = read_text(output.get(), end, max_bytes, text)
                        && await_input(child.pidfd.get(), end);
   const auto code = exit_code(child.pidfd.get());
   kill_and_reap(child.pidfd.get());
@@ -221,9 +221,9 @@ edge_result<std::string> run_program(const program& what,
   if (code != 0)
     return edge_error{error_code::engine_failed,
                       name + " ended with code " + std::to_string(code) + ": "
-                          + trimmed(words.substr(0, max_words_bytes)),
+                          + trimmed(text.substr(0, max_text_bytes)),
                       ""};
-  return words;
+  return text;
 }
 
 } // namespace roscell

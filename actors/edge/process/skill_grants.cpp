@@ -154,9 +154,9 @@ skill_grants::missing(const std::string& skill,
 
 std::string refusal_text(const std::string& skill, const std::string& node,
                          const std::string& what) {
-  auto words = what;
-  std::replace(words.begin(), words.end(), ':', ' ');
-  return "skill '" + skill + "' wants " + words + ", which node '" + node
+  auto wanted = what;
+  std::replace(wanted.begin(), wanted.end(), ':', ' ');
+  return "skill '" + skill + "' wants " + wanted + ", which node '" + node
          + "' does not grant it: grant = " + skill + "=" + what;
 }
 

@@ -66,7 +66,7 @@ caf::error open_status(engine_runtime_pointer self, const std::string& instance,
   // Nobody else may speak for the instance.
   fs::permissions(dir, fs::perms::owner_all, problem);
   x.notify_socket = share(std::get<unique_fd>(std::move(socket)));
-  x.words = watch_notifications(
+  x.notifications = watch_notifications(
       self->state.config.io, x.notify_socket,
       [listener = self->state.listener, instance](const notification& n) {
         caf::anon_send(listener, status_notification(instance, n, false));
@@ -160,9 +160,9 @@ void publish_transfer_end(engine_runtime_pointer self,
   if (x == nullptr || (!x->id.empty() && x->id != id))
     return;
   // What the program said last must not come after its end.
-  const auto words = receive_notifications(x->notify_socket->get());
-  if (words.ready || words.stopping || !words.status.empty())
-    self->send(st.listener, status_notification(instance, words, false));
+  const auto notified = receive_notifications(x->notify_socket->get());
+  if (notified.ready || notified.stopping || !notified.status.empty())
+    self->send(st.listener, status_notification(instance, notified, false));
   const auto end = read_exit_record(notify_dir(self, instance));
   self->send(st.listener,
              container_exited{instance, id, exit_code, end && end->terminated,

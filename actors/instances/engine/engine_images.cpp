@@ -199,10 +199,10 @@ void report_build_step(engine_runtime_pointer self, image_work& work) {
   work.next_status = self->clock().now() + limits::engine::build_status;
   st.config.context.publish_event(events::image_building, work.image,
                                   {{"step", step}});
-  notification words;
-  words.status = step;
+  notification notified;
+  notified.status = step;
   for (const auto& x : work.waiters)
-    self->send(st.listener, status_notification(x.instance, words, false));
+    self->send(st.listener, status_notification(x.instance, notified, false));
 }
 
 } // namespace

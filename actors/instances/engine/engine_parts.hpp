@@ -13,7 +13,10 @@
 #include <optional>
 #include <string>
 
-/// INTERNAL to the engine runtime: what its parts share.
+/// INTERNAL to the engine runtime: all functions by which its files call each
+/// other, grouped by the file that has them. They own nothing: containers,
+/// images and calls are in `engine_runtime_state`. What the engine refuses, or
+/// does not answer, becomes `engine_failed` (`engine_failure`).
 namespace roscell {
 
 using engine_runtime_pointer =
@@ -58,8 +61,6 @@ bool flag_at(const json& object, const char* name);
 
 /// An object in an object; empty if it is none.
 json object_at(const json& object, const char* name);
-
-// INTERNAL to the engine runtime: its parts.
 
 // Images: engine_images.cpp.
 caf::result<image_prepared> prepare(engine_runtime_pointer self,
@@ -108,7 +109,7 @@ bool take_end_of_log(engine_runtime_pointer self, const engine_log_read& end);
 /// Answers the followers whose time is over, and sets the alarm for the others.
 void release_followers(engine_runtime_pointer self);
 
-// INTERNAL to the engine runtime: what it knows of its containers.
+// Containers that are known: engine_containers.cpp.
 
 caf::error bad_id(const std::string& instance);
 

@@ -48,7 +48,7 @@ struct engine_container {
   /// What was asked meanwhile.
   std::vector<std::function<void()>> waiting;
   shared_fd notify_socket;
-  fd_watch words;
+  fd_watch notifications;
 };
 
 /// An image that is being made ready, for whoever has asked for it.

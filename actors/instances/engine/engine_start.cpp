@@ -28,8 +28,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* podman_create = "/v4.0.0/libpod/containers/create";
-
 bool is_podman(engine_runtime_pointer self) {
   return self->state.config.setting.engine == "podman";
 }
@@ -117,7 +115,7 @@ void create(engine_runtime_pointer self, const shared_attempt& x) {
   request.method = "POST";
   request.target =
       is_podman(self)
-          ? std::string{podman_create}
+          ? std::string{podman_api} + "/containers/create"
           : "/containers/create?name="
                 + percent_encode(container_name(x->request.instance));
   request.body = x->body;

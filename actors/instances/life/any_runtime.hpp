@@ -13,7 +13,8 @@
 #include <filesystem>
 #include <string>
 
-/// What every runtime of instances does alike.
+/// What the runtimes of processes and of containers do alike: ids, fences, what
+/// a program notifies, and who follows its log. The state is the runtime's own.
 namespace roscell {
 
 /// Whether the text can be an instance's id: it names folders and containers,
@@ -35,7 +36,7 @@ inline instance_notified status_notification(const std::string& instance,
           heard,    x.safe,  x.streams, x.frames,   x.remark};
 }
 
-// What every runtime does alike for those who read its instances' logs.
+// Followers of logs.
 
 /// Someone who waits for more of a log.
 struct log_follower {
@@ -50,10 +51,11 @@ std::chrono::milliseconds wait_of(const log_query& query);
 /// Whether an excerpt is worth an answer before its time is over.
 bool says_something(const log_excerpt& x);
 
-/// unknown_task.
+/// The error for a log that there is not: unknown_task.
 caf::error no_log_of(const std::string& instance);
 
-/// conflict: an answer without a word would be asked again at once.
+/// The error for one follower too many: conflict, because an empty answer would
+/// be asked again at once.
 caf::error too_many_followers();
 
 } // namespace roscell

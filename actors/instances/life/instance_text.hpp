@@ -21,7 +21,7 @@ instance_environment(const instance_spec& spec,
                      const deployment_option& deployment,
                      const std::map<std::string, std::string>& of_node = {});
 
-// What is said of instances to people.
+// Texts about instances: how they have ended, and why.
 
 /// "with exit code 3", "by signal 9", or "in an unknown way" for a negative
 /// one.

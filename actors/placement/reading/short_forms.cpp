@@ -110,8 +110,8 @@ private:
     return result_.steps[i].step;
   }
 
-  void refuse(const std::string& at, std::string words) {
-    result_.errors.push_back({at, std::move(words)});
+  void refuse(const std::string& at, std::string text) {
+    result_.errors.push_back({at, std::move(text)});
   }
 
   // -- ends that say where they are -----------------------------------------

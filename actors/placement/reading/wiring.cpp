@@ -15,8 +15,8 @@ namespace {
 
 /// One end that somebody writes.
 struct written_end {
-  size_t step;       ///< Position; unused where another task writes it.
-  std::string words; ///< Who writes it where.
+  size_t step;      ///< Position; unused where another task writes it.
+  std::string text; ///< Who writes it where.
   io_endpoint end;
   bool elsewhere; ///< Another task does.
 };
@@ -93,12 +93,12 @@ public:
   }
 
 private:
-  void refuse(const std::string& at, std::string words) {
-    result_.errors.push_back({at, std::move(words)});
+  void refuse(const std::string& at, std::string text) {
+    result_.errors.push_back({at, std::move(text)});
   }
 
-  void warn(const std::string& at, const std::string& words) {
-    result_.warnings.push_back("at " + at + ": " + words);
+  void warn(const std::string& at, const std::string& text) {
+    result_.warnings.push_back("at " + at + ": " + text);
   }
 
   // -- what is read ---------------------------------------------------------
@@ -121,7 +121,7 @@ private:
       if (!same_topic(x.end, end))
         continue;
       if (x.end.data_type == end.data_type)
-        return external ? warn(at, "the topic is external, but " + x.words
+        return external ? warn(at, "the topic is external, but " + x.text
                                        + " writes it")
                         : void();
       other_type = &x;
@@ -129,7 +129,7 @@ private:
     if (external)
       return check_external(end, at);
     if (other_type != nullptr)
-      refuse(at, other_type->words + " writes the topic "
+      refuse(at, other_type->text + " writes the topic "
                      + in_quotes(end.endpoint) + " as "
                      + in_quotes(other_type->end.data_type) + ", it is read as "
                      + in_quotes(end.data_type));
@@ -158,14 +158,14 @@ private:
     for (const auto& x : written_)
       if (is_topic_end(x.end))
         topics.emplace_back(x.end.endpoint);
-    auto words =
+    auto text =
         "nobody in this cell writes the topic " + in_quotes(end.endpoint, 80);
     const auto meant = closest_word(end.endpoint, topics);
     for (const auto& x : written_)
       if (!meant.empty() && x.end.endpoint == meant)
-        return words + "; did you mean " + in_quotes(meant, 80) + " of "
-               + x.words + "?";
-    return words
+        return text + "; did you mean " + in_quotes(meant, 80) + " of " + x.text
+               + "?";
+    return text
            + "; say \"external\": true if a program that ROSCell does not "
              "start writes it";
   }
@@ -200,7 +200,7 @@ private:
     if (apart.empty())
       unite(i, x.step);
     else
-      refuse(at, by + " is written by " + x.words
+      refuse(at, by + " is written by " + x.text
                      + ", and both must run on one node, but they want " + apart
                      + "; join them by a topic");
   }
@@ -235,7 +235,7 @@ private:
   void check_second_writer(const io_endpoint& end, const std::string& at,
                            const written_end& first) {
     const auto both = "the topic " + in_quotes(end.endpoint, 80)
-                      + " is written by " + first.words + ", too";
+                      + " is written by " + first.text + ", too";
     if (first.end.data_type != end.data_type)
       refuse(at, both + ", as " + in_quotes(first.end.data_type));
     else if (!is_shared(end))
@@ -245,7 +245,7 @@ private:
   void check_second_file(size_t i, const io_endpoint& end,
                          const std::string& at, const written_end& first) {
     const auto both = "the file " + in_quotes(end.endpoint, 80)
-                      + " is written by " + first.words + ", too";
+                      + " is written by " + first.text + ", too";
     if (first.elsewhere || is_folder(end))
       warn(at, both + "; what has one name there is overwritten");
     else if (contradiction(steps_[i].step, steps_[first.step].step).empty())

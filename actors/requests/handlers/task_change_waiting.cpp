@@ -145,14 +145,14 @@ std::shared_ptr<const void> take_place(const request_context& context) {
 } // namespace
 
 std::string mark_of(const task_description& task) {
-  std::string words;
+  std::string text;
   for (const auto& row : task.tasks) {
-    words += std::string{to_string(row.state)} + '\n' + std::to_string(row.run);
+    text += std::string{to_string(row.state)} + '\n' + std::to_string(row.run);
     for (const auto& x : row.instances)
-      words += '\n' + x.spec.instance + '\t' + x.node + '\t'
-               + std::string{to_string(x.state)} + '\t' + x.reason;
+      text += '\n' + x.spec.instance + '\t' + x.node + '\t'
+              + std::string{to_string(x.state)} + '\t' + x.reason;
   }
-  return std::to_string(std::hash<std::string>{}(words));
+  return std::to_string(std::hash<std::string>{}(text));
 }
 
 void await_task_change(const request_context& context, task_change_query query,

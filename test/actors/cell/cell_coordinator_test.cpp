@@ -549,6 +549,19 @@ TEST_CASE_METHOD(paper_cell,
         == "task_accepted");
 }
 
+TEST_CASE("A task's steps are listed in the order in which its data flow",
+          "[cell_coordinator]") {
+  auto task = some_record("t", task_state::running, {"arm", "leg"});
+  task.specs[1].output = {{"ros2", "/a", "std_msgs/msg/String"}};
+  task.specs[0].input = task.specs[1].output;
+  paper_cell cell{{task}};
+  const auto reply = cell.request({{"type", "task_query"}, {"task", "t"}});
+  const auto& steps = reply.at("tasks")[0].at("instances");
+  REQUIRE(steps.size() == 2);
+  CHECK(steps[0].at("spec").at("step") == "t-on-leg");
+  CHECK(steps[1].at("spec").at("step") == "t-on-arm");
+}
+
 TEST_CASE_METHOD(paper_cell, "What is unknown is refused by its id",
                  "[cell_coordinator]") {
   auto reply = request({{"type", "task_query"}, {"task", "x"}});

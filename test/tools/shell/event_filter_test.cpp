@@ -20,7 +20,7 @@ event some_event(const char* what, const char* subject,
 
 TEST_CASE("a filter that names nothing takes every event", "[shell]") {
   CHECK(event_filter{}.takes(some_event("node_joined", "arm")));
-  CHECK(event_filter{}.words() == "all events");
+  CHECK(event_filter{}.text() == "all events");
 }
 
 TEST_CASE("events are filtered by kind", "[shell]") {
@@ -47,5 +47,5 @@ TEST_CASE("kind and subject must both fit", "[shell]") {
   CHECK(filter.takes(some_event("node_lost", "arm")));
   CHECK_FALSE(filter.takes(some_event("node_joined", "arm")));
   CHECK_FALSE(filter.takes(some_event("node_lost", "belt")));
-  CHECK(filter.words() == "node_lost of arm");
+  CHECK(filter.text() == "node_lost of arm");
 }

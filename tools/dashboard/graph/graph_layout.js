@@ -1,7 +1,8 @@
 // Where everything of a task's picture stands. The steps stand one below the
-// other, each below those that it gets something from, and in the column of its
-// node; a stream has a lane at the left, from the step that writes it to those
-// that read it. `roscell graph` draws it by the same rules.
+// other, in the order in which the coordinator lists them: each below those that
+// it gets something from. They stand in the column of their node; a stream has a
+// lane at the left, from the step that writes it to those that read it. `roscell
+// graph` draws it by the same rules.
 import { asList } from '../page/words.js';
 
 export const LINE = 16;
@@ -13,7 +14,7 @@ const GAP = 14;
 
 /** The rows of a task's instances. Gives places in pixels; draws nothing. */
 export function layOut(instances) {
-  const boxes = inOrder(instances.map(boxOf));
+  const boxes = instances.map(boxOf);
   const nodes = [...new Set(boxes.map((x) => x.row.node))];
   let bottom = HEADING;
   for (const box of boxes) {
@@ -37,24 +38,6 @@ function boxOf(row) {
   const box = { row, step: row.spec.step, ends: [...ends(row.spec.input, true), ...ends(row.spec.output, false)] };
   box.ends.forEach((end) => { end.box = box; });
   return box;
-}
-
-/** By the longest way to each; arrows that lead back do not count. */
-function inOrder(boxes) {
-  const writers = new Map();
-  for (const end of boxes.flatMap((x) => x.ends).filter((x) => !x.reads))
-    writers.set(end.key, [...writers.get(end.key) ?? [], end.box]);
-  const open = new Set();
-  const layerOf = (box) => {
-    if (box.layer !== undefined || open.has(box))
-      return box.layer ?? -1;
-    open.add(box);
-    const before = box.ends.filter((x) => x.reads).flatMap((x) => writers.get(x.key) ?? []);
-    box.layer = 1 + Math.max(-1, ...before.map(layerOf));
-    return box.layer;
-  };
-  boxes.forEach(layerOf);
-  return boxes.sort((a, b) => a.layer - b.layer);
 }
 
 /** Those streams that are written and read here; lanes beside each other have columns of their own. */

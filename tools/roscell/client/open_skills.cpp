@@ -2,7 +2,7 @@
 
 #include "actors/edge/disk/file_rights.hpp"
 #include "actors/edge/host/own_process.hpp"
-#include "tools/roscell/shell/split_words.hpp"
+#include "tools/roscell/split_words.hpp"
 
 #include <unistd.h>
 

@@ -2,11 +2,11 @@
 #include "actors/edge/io/node_time.hpp"
 #include "actors/node/limits.hpp"
 #include "tools/roscell/client/event_start.hpp"
-#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/event_text.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>

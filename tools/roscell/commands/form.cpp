@@ -1,11 +1,11 @@
-#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/client/node_client.hpp"
+#include "tools/roscell/client/progress.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/formation_view.hpp"
-#include "tools/roscell/view/progress.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>

@@ -9,6 +9,8 @@
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace roscell::cli {
 
@@ -23,14 +25,31 @@ struct graph_options {
   std::string output = "text";
 };
 
+/// The steps of a task in the order in which data flow through them. Refused,
+/// with a reason, if there is no such task.
+std::vector<instance_row> ask_for_steps(const node_client& node,
+                                        const std::string& task) {
+  std::vector<instance_row> result;
+  for (auto& x : node.get("/v1/tasks/" + percent_encode(task))
+                     .get<task_description>()
+                     .tasks)
+    for (auto& step : x.instances)
+      result.push_back(std::move(step));
+  return result;
+}
+
 task_graph ask_for_graph(const node_client& node, const std::string& task) {
-  // Refused, with a reason, if there is no such task.
-  node.get("/v1/tasks/" + percent_encode(task));
+  auto steps = ask_for_steps(node, task);
   instance_query query;
   query.task = task;
-  return graph_of(task, node.ask(message_json(query), metrics_limit)
+  const auto measured = node.ask(message_json(query), metrics_limit)
                             .get<instance_description>()
-                            .instances);
+                            .instances;
+  for (const auto& x : measured)
+    for (auto& step : steps)
+      if (step.spec.instance == x.spec.instance)
+        step = x;
+  return graph_of(task, std::move(steps));
 }
 
 std::string text_of(const task_graph& graph, const graph_options& options) {

@@ -1,7 +1,7 @@
 #include "actors/node/config_checks.hpp"
 #include "tools/roscell/commands.hpp"
-#include "tools/roscell/daemon/config_file.hpp"
-#include "tools/roscell/daemon/node_options.hpp"
+#include "tools/roscell/config/config_file.hpp"
+#include "tools/roscell/config/node_options.hpp"
 
 #include <CLI/CLI.hpp>
 

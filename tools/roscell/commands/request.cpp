@@ -1,15 +1,15 @@
 #include "schemas/document.hpp"
-#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/client/node_client.hpp"
+#include "tools/roscell/client/progress.hpp"
 #include "tools/roscell/client/read_file.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/tasks/preemption.hpp"
 #include "tools/roscell/tasks/wait_finished.hpp"
+#include "tools/roscell/view/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/marked_errors.hpp"
-#include "tools/roscell/view/progress.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>

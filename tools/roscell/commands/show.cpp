@@ -5,8 +5,9 @@
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/ros2/found_topic.hpp"
-#include "tools/roscell/tasks/task_view.hpp"
+#include "tools/roscell/tasks/task_history.hpp"
 #include "tools/roscell/view/formation_view.hpp"
+#include "tools/roscell/view/task_replies.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>

@@ -1,7 +1,7 @@
 #include "tools/roscell/completion/completer.hpp"
 
 #include "tools/roscell/completion/option_values.hpp"
-#include "tools/roscell/shell/split_words.hpp"
+#include "tools/roscell/split_words.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -3,7 +3,7 @@
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/completion/live_names.hpp"
 #include "tools/roscell/exit_code.hpp"
-#include "tools/roscell/shell/split_words.hpp"
+#include "tools/roscell/split_words.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
 

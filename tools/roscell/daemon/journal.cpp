@@ -4,7 +4,7 @@
 #include "actors/node/event_series.hpp"
 #include "messages/event_kinds.hpp"
 #include "messages/messages.hpp"
-#include "tools/roscell/client/event_text.hpp"
+#include "tools/roscell/view/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <caf/send.hpp>

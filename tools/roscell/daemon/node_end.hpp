@@ -1,8 +1,8 @@
 #pragma once
 
 #include "actors/node/spawn_node.hpp"
-#include "tools/roscell/daemon/service_signals.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/service_signals.hpp"
 
 #include <caf/actor_system.hpp>
 

@@ -2,10 +2,10 @@
 
 #include "actors/edge/host/interfaces.hpp"
 #include "actors/node/spawn_node.hpp"
+#include "tools/roscell/config/node_options.hpp"
 #include "tools/roscell/daemon/node_address.hpp"
-#include "tools/roscell/daemon/node_options.hpp"
-#include "tools/roscell/daemon/service_signals.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/service_signals.hpp"
 
 #include <caf/actor_system.hpp>
 

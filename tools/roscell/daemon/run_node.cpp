@@ -1,7 +1,7 @@
 #include "actors/edge/dds/discovery_setup.hpp"
 #include "actors/edge/host/own_process.hpp"
+#include "tools/roscell/config/node_options.hpp"
 #include "tools/roscell/daemon/node_address.hpp"
-#include "tools/roscell/daemon/node_options.hpp"
 #include "tools/roscell/daemon/node_process.hpp"
 
 #include <malloc.h>

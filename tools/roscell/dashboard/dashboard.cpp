@@ -3,11 +3,11 @@
 #include "messages/node.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
-#include "tools/roscell/daemon/service_signals.hpp"
 #include "tools/roscell/dashboard/forwarding.hpp"
 #include "tools/roscell/dashboard/open_page.hpp"
 #include "tools/roscell/dashboard/pages.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/service_signals.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/roscell/shell/split_words.hpp"
+#include "tools/roscell/split_words.hpp"
 
 #include <sys/types.h>
 

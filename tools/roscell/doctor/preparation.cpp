@@ -2,8 +2,8 @@
 
 #include "actors/edge/host/interfaces.hpp"
 #include "messages/node.hpp"
-#include "tools/roscell/daemon/config_file.hpp"
-#include "tools/roscell/daemon/node_options.hpp"
+#include "tools/roscell/config/config_file.hpp"
+#include "tools/roscell/config/node_options.hpp"
 #include "tools/roscell/doctor/cell/cell_checks.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/doctor/node/asked_nodes.hpp"

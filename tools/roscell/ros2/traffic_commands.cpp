@@ -1,9 +1,9 @@
 #include "skills/ros2/topic_listener.hpp"
 #include "tools/roscell/commands.hpp"
-#include "tools/roscell/daemon/service_signals.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/ros2/found_topic.hpp"
 #include "tools/roscell/ros2/traffic_meter.hpp"
+#include "tools/roscell/service_signals.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>

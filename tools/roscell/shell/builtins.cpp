@@ -48,7 +48,7 @@ int begin_to_follow(const follow_options& options, live_shell* shell) {
     return exit_done;
   }
   shell->events.show(options.filter);
-  print("shows " + printable(options.filter.words())
+  print("shows " + printable(options.filter.text())
         + "; `follow --off` ends it\n");
   return exit_done;
 }

@@ -1,8 +1,8 @@
 #include "tools/roscell/shell/follower.hpp"
 
 #include "messages/node.hpp"
-#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/view/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
@@ -160,7 +160,7 @@ bool event_filter::takes(const event& e) const {
   return fits(kinds, is_of_kind) && fits(subjects, is_about);
 }
 
-std::string event_filter::words() const {
+std::string event_filter::text() const {
   auto result = kinds.empty() ? "all events" : joined(kinds, ", ");
   if (!subjects.empty())
     result += " of " + joined(subjects, ", ");

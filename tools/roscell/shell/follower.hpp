@@ -25,7 +25,7 @@ struct event_filter {
   bool takes(const event& e) const;
 
   /// "node_* of arm-1"
-  std::string words() const;
+  std::string text() const;
 };
 
 /// What a prompt tells of the node.

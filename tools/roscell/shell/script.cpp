@@ -3,7 +3,7 @@
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/shell/child.hpp"
 #include "tools/roscell/shell/json_collector.hpp"
-#include "tools/roscell/shell/split_words.hpp"
+#include "tools/roscell/split_words.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <optional>

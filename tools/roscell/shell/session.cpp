@@ -5,8 +5,8 @@
 #include "tools/roscell/shell/child.hpp"
 #include "tools/roscell/shell/editing/line_editor.hpp"
 #include "tools/roscell/shell/json_collector.hpp"
-#include "tools/roscell/shell/split_words.hpp"
 #include "tools/roscell/shell/vocabulary.hpp"
+#include "tools/roscell/split_words.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/run.hpp"
-#include "tools/roscell/shell/split_words.hpp"
+#include "tools/roscell/split_words.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>

@@ -3,8 +3,8 @@
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/tasks/known_skills.hpp"
 #include "tools/roscell/tasks/skeleton.hpp"
-#include "tools/roscell/tasks/task_view.hpp"
 #include "tools/roscell/view/shape/shape.hpp"
+#include "tools/roscell/view/task_replies.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>

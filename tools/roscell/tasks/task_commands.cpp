@@ -1,16 +1,16 @@
 #include "actors/edge/io/crypto.hpp"
 #include "schemas/message_catalogue.hpp"
-#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/client/node_client.hpp"
+#include "tools/roscell/client/progress.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/tasks/preemption.hpp"
 #include "tools/roscell/tasks/task_file.hpp"
-#include "tools/roscell/tasks/task_view.hpp"
 #include "tools/roscell/tasks/wait_finished.hpp"
+#include "tools/roscell/view/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/progress.hpp"
+#include "tools/roscell/view/task_replies.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>
@@ -41,9 +41,9 @@ using options_ptr = std::shared_ptr<task_options>;
 json ask_about(const task_options& options, const std::string& task,
                const json& request) {
   const node_client node{options.connection};
-  const auto words = [task](const event& e) { return progress_lines(e, task); };
+  const auto lines = [task](const event& e) { return progress_lines(e, task); };
   return post_with_progress(node, request.dump(),
-                            parse_duration(options.timeout), words);
+                            parse_duration(options.timeout), lines);
 }
 
 /// The same where a refusal has no document to point into.

@@ -17,7 +17,7 @@ template <class Row>
 struct described_column {
   column what;
   cell (*of)(const Row& row, const view_style& style);
-  /// How the dashboard says it, a word of tools/dashboard/page/columns.js;
+  /// How the dashboard says it, a word of tools/dashboard/pages/columns.js;
   /// empty: it does not show it.
   const char* said_as = "";
   const char* path = ""; ///< Of what it is read from, in the JSON of a row.

@@ -11,7 +11,9 @@
 #include <mutex>
 #include <string>
 
-/// INTERNAL to actors/edge/dds.
+/// INTERNAL to actors/edge/dds: sequence numbers and counts of a discovery
+/// server that go on over its restarts. A `number_reserve` owns the file that
+/// says which are used; a `number_shift` rewrites one life's messages by it.
 namespace roscell {
 
 /// Numbers that no earlier life of this node's discovery server has used.
@@ -66,11 +68,9 @@ private:
   std::atomic<std::int64_t> highest_count_{0};
 };
 
-// INTERNAL to actors/edge/dds.
-
 /// Lets a discovery server, which Fast DDS begins at 1 in each life, go on
 /// where its last life ended: what it numbers is shifted by what that one has
-/// used, and its counts are those of the reserve (number_reserve.hpp).
+/// used, and its counts are those of the reserve.
 class number_shift {
 public:
   /// Takes what it needs for one life.

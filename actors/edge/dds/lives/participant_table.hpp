@@ -9,7 +9,9 @@
 #include <set>
 #include <vector>
 
-/// INTERNAL to actors/edge/dds.
+/// INTERNAL to actors/edge/dds: what a discovery server knows of participants
+/// besides Fast DDS: by whom it knows them (`participant_table`), and how often
+/// each has come back after a silence (`speaker_lives`). Both are bounded.
 namespace roscell {
 
 /// Through whom this node's discovery server knows the participants that it
@@ -57,8 +59,6 @@ private:
   std::map<guid_prefix, reporter> reported_;
   std::set<guid_prefix> selves_; // Known by what they tell themselves.
 };
-
-// INTERNAL to actors/edge/dds.
 
 /// How often each participant that tells of itself has come back after a
 /// silence in which it may have been taken for dead.

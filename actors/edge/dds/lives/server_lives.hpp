@@ -8,7 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 
-/// INTERNAL to actors/edge/dds.
+/// INTERNAL to actors/edge/dds: what this node's discovery server keeps of each
+/// other one, by its id: which life it speaks with (`server_lives`), and when
+/// it may introduce itself again (`introduction_pacing`).
 namespace roscell {
 
 /// Which life of each other discovery server this one speaks with.
@@ -87,8 +89,6 @@ private:
   const std::uint8_t own_;
   std::array<peer, 256> peers_;
 };
-
-// INTERNAL to actors/edge/dds.
 
 /// When a discovery server may introduce itself to another one again.
 ///

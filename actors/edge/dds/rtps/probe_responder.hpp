@@ -16,7 +16,9 @@
 #include <utility>
 #include <vector>
 
-/// INTERNAL to actors/edge/dds.
+/// INTERNAL to actors/edge/dds: both ends of the question whether a discovery
+/// server is there. A `probe_responder` answers it in a server's place; a
+/// `server_readiness` asks it of a server of this process that has just begun.
 namespace roscell {
 
 /// Answers those who ask for a discovery server (discovery_probe.hpp) in its
@@ -48,8 +50,6 @@ private:
   std::set<guid_prefix> asked_;
   std::deque<guid_prefix> in_order_; // The same, the latest last.
 };
-
-// INTERNAL to this folder.
 
 /// Waits for a discovery server of this process to have entered itself into
 /// its own database, which Fast DDS leaves to a thread, and learns with which

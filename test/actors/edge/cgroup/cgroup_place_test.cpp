@@ -109,14 +109,14 @@ TEST_CASE("a node has a folder of its own there, and those that ended go",
 
 TEST_CASE("where nothing can be made it is said why", "[cgroup]") {
   const fake_unified host;
-  CHECK(find_cgroup_place({"none", "u", true}, host.sight()).words
+  CHECK(find_cgroup_place({"none", "u", true}, host.sight()).text
         == "none: it was told so");
-  CHECK(find_cgroup_place({"auto", "u", true}, {}).words
+  CHECK(find_cgroup_place({"auto", "u", true}, {}).text
         == "none: this host has no cgroups");
   const auto named =
       find_cgroup_place({"/no/such/folder", "u", false}, host.sight());
   CHECK(named.version == 0);
-  CHECK(named.words.find("'/no/such/folder' cannot be used")
+  CHECK(named.text.find("'/no/such/folder' cannot be used")
         != std::string::npos);
 }
 
@@ -129,5 +129,5 @@ TEST_CASE("without memory it is said that memory is not bounded", "[cgroup]") {
   const auto place = find_cgroup_place({"auto", "u", false}, host.sight());
   CHECK(place.version == 2);
   CHECK_FALSE(place.has("memory"));
-  CHECK(place.words.find("but not memory") != std::string::npos);
+  CHECK(place.text.find("but not memory") != std::string::npos);
 }

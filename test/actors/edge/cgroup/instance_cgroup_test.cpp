@@ -36,7 +36,7 @@ struct real_place {
           {"auto", "test-" + std::to_string(::getpid()), ::geteuid() == 0},
           see_cgroups())) {
     if (!place.has("memory"))
-      WARN("SKIPPED: " + place.words);
+      WARN("SKIPPED: " + place.text);
   }
 
   ~real_place() {

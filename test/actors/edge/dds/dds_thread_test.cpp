@@ -1,6 +1,6 @@
 #include "actors/edge/dds/dds_thread.hpp"
 
-#include "actors/edge/dds/rtps/discovery_transport.hpp"
+#include "actors/edge/dds/discovery_transport.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -98,7 +98,7 @@ void ask_library(const std::string& name, gpu_readings& gpu) {
       reinterpret_cast<int (*)()>(dlsym(library.get(), "nvmlInit_v2"));
   const auto end =
       reinterpret_cast<int (*)()>(dlsym(library.get(), "nvmlShutdown"));
-  const auto words = reinterpret_cast<const char* (*)(int)>(
+  const auto error_text = reinterpret_cast<const char* (*)(int)>(
       dlsym(library.get(), "nvmlErrorString"));
   if (begin == nullptr || end == nullptr) {
     gpu.library_error = "it is older than driver 319";
@@ -107,8 +107,8 @@ void ask_library(const std::string& name, gpu_readings& gpu) {
   if (const auto code = begin(); code == 0)
     end();
   else
-    gpu.library_error =
-        words == nullptr ? "error " + std::to_string(code) : words(code);
+    gpu.library_error = error_text == nullptr ? "error " + std::to_string(code)
+                                              : error_text(code);
 }
 
 } // namespace

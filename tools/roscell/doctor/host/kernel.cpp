@@ -102,13 +102,13 @@ inotify_readings read_inotify(const std::string& proc, uid_t user) {
 finding judge_inotify(const inotify_readings& seen) {
   if (seen.most < 0)
     return {judgement::skipped, "the kernel does not report inotify"};
-  const auto words = std::to_string(seen.used) + " of "
-                     + std::to_string(seen.most)
-                     + " inotify instances of this user are in use";
+  const auto text = std::to_string(seen.used) + " of "
+                    + std::to_string(seen.most)
+                    + " inotify instances of this user are in use";
   if (seen.most - seen.used >= wanted_instances)
-    return {judgement::ok, words};
+    return {judgement::ok, text};
   return {
-      judgement::warning, words,
+      judgement::warning, text,
       "each skill that follows a file, and each log that is followed, takes "
       "one: without it a skill looks once a second, and lines of a log come "
       "late",

@@ -23,7 +23,7 @@ namespace {
 using calibration = std::optional<std::vector<double>>;
 
 /// What a camera says of its images, or the images say themselves.
-struct camera_text {
+struct camera_data {
   calibration k;
   sent_image image; ///< Of no bytes where it says nothing.
   std::optional<seen_image> seen;
@@ -38,7 +38,7 @@ constexpr size_t most_cameras = 8;
 constexpr auto camera_info = "sensor_msgs/msg/CameraInfo";
 constexpr auto image_message = "sensor_msgs/msg/Image";
 
-camera_text text_of_info(const std::string& payload) {
+camera_data data_of_info(const std::string& payload) {
   message_library library{{}};
   const auto value = message_value(library, camera_info, payload, 16);
   return {value.at("k").get<std::vector<double>>(),
@@ -47,7 +47,7 @@ camera_text text_of_info(const std::string& payload) {
           {}};
 }
 
-camera_text text_of_image(const std::string& payload) {
+camera_data data_of_image(const std::string& payload) {
   try {
     return {{}, {}, seen_image{ros2::view_image(payload).encoding, ""}};
   } catch (const ros2::cdr_error& e) {
@@ -67,12 +67,12 @@ public:
         });
   }
 
-  camera_text words(std::chrono::steady_clock::time_point deadline) {
+  camera_data answer(std::chrono::steady_clock::time_point deadline) {
     auto reported = said_->promise.get_future();
     const bool came =
         reported.wait_until(deadline) == std::future_status::ready;
     listener_.reset();
-    return came ? reported.get() : camera_text{};
+    return came ? reported.get() : camera_data{};
   }
 
   const topic_row& row() const {
@@ -85,7 +85,7 @@ public:
 
 private:
   struct first_word {
-    std::promise<camera_text> promise;
+    std::promise<camera_data> promise;
     bool heard = false;
   };
 
@@ -95,8 +95,8 @@ private:
     if (std::exchange(said.heard, true))
       return;
     try {
-      said.promise.set_value(is_image ? text_of_image(x.payload)
-                                      : text_of_info(x.payload));
+      said.promise.set_value(is_image ? data_of_image(x.payload)
+                                      : data_of_info(x.payload));
     } catch (const std::exception&) {
       said.promise.set_value({});
     }
@@ -129,11 +129,11 @@ findings listen_to(const node_client& node,
   findings result;
   sent_image largest;
   for (const auto& x : heard) {
-    const auto words = x->words(deadline);
-    result.push_back(x->is_image() ? judge_images(x->row(), words.seen)
-                                   : judge_camera(x->row(), words.k));
-    if (words.image.bytes > largest.bytes)
-      largest = words.image;
+    const auto answer = x->answer(deadline);
+    result.push_back(x->is_image() ? judge_images(x->row(), answer.seen)
+                                   : judge_camera(x->row(), answer.k));
+    if (answer.image.bytes > largest.bytes)
+      largest = answer.image;
   }
   // `buffers` does not know what flows.
   const auto given = read_buffers();

@@ -1,8 +1,8 @@
 #include "tools/roscell/top/layout/frame.hpp"
 
-#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/top/viewer.hpp"
 #include "tools/roscell/view/describe/describe_view.hpp"
+#include "tools/roscell/view/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <algorithm>

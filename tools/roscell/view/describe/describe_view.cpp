@@ -1,8 +1,8 @@
 #include "tools/roscell/view/describe/describe_view.hpp"
 
-#include "tools/roscell/client/event_text.hpp"
 #include "tools/roscell/view/describe/page.hpp"
 #include "tools/roscell/view/describe/things.hpp"
+#include "tools/roscell/view/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/shape/shape.hpp"
 

@@ -105,38 +105,6 @@ std::vector<std::string> framed(const std::vector<drawn_line>& box,
   return result;
 }
 
-/// Walks the arcs, and leaves out those that lead back to where it has come
-/// from.
-class arc_walk {
-public:
-  arc_walk(size_t boxes, const std::vector<graph_arc>& arcs)
-      : arcs_{arcs}, state_(boxes, unseen) {
-    for (size_t i = 0; i < boxes; ++i)
-      visit(i);
-  }
-
-  std::vector<graph_arc> forward;
-
-private:
-  enum state { unseen, open, done };
-
-  void visit(size_t box) {
-    if (state_[box] != unseen)
-      return;
-    state_[box] = open;
-    for (const auto& arc : arcs_) {
-      if (arc.first != box || state_[arc.second] == open)
-        continue;
-      forward.push_back(arc);
-      visit(arc.second);
-    }
-    state_[box] = done;
-  }
-
-  const std::vector<graph_arc>& arcs_;
-  std::vector<state> state_;
-};
-
 } // namespace
 
 std::string drawing(const std::vector<std::vector<drawn_line>>& boxes,
@@ -154,16 +122,6 @@ std::string drawing(const std::vector<std::vector<drawn_line>>& boxes,
           + "\n";
       ++number;
     }
-  return result;
-}
-
-std::vector<size_t> layers(size_t boxes, const std::vector<graph_arc>& arcs) {
-  const arc_walk walk{boxes, arcs};
-  std::vector<size_t> result(boxes, 0);
-  // Without circles no path has more arcs than there are boxes.
-  for (size_t round = 0; round < boxes; ++round)
-    for (const auto& [from, to] : walk.forward)
-      result[to] = std::max(result[to], result[from] + 1);
   return result;
 }
 

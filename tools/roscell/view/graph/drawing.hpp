@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace roscell::cli {
@@ -20,11 +19,5 @@ struct drawn_line {
 /// one line only has none. No line is longer than `width`.
 std::string drawing(const std::vector<std::vector<drawn_line>>& boxes,
                     size_t width);
-
-using graph_arc = std::pair<size_t, size_t>; ///< From a box to another one.
-
-/// The layer of each box: below all boxes that it has an arc from; where arcs
-/// go round in a circle, below those that come first.
-std::vector<size_t> layers(size_t boxes, const std::vector<graph_arc>& arcs);
 
 } // namespace roscell::cli

@@ -4,8 +4,6 @@
 #include "tools/roscell/view/graph/drawing.hpp"
 #include "tools/roscell/view/instance_text.hpp"
 
-#include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace roscell::cli {
@@ -58,19 +56,9 @@ std::vector<drawn_line> box_of(const task_graph& graph, size_t i) {
   return lines;
 }
 
-/// The boxes of the steps, each below those that it gets something from.
 std::vector<std::vector<drawn_line>> boxes_of(const task_graph& graph) {
-  std::vector<graph_arc> arcs;
-  for (const auto& x : graph.streams)
-    if (x.from && x.to)
-      arcs.emplace_back(*x.from, *x.to);
-  const auto layer = layers(graph.steps.size(), arcs);
-  std::vector<size_t> order(graph.steps.size());
-  std::iota(order.begin(), order.end(), size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](size_t x, size_t y) { return layer[x] < layer[y]; });
   std::vector<std::vector<drawn_line>> result;
-  for (const auto i : order)
+  for (size_t i = 0; i < graph.steps.size(); ++i)
     result.push_back(box_of(graph, i));
   return result;
 }

@@ -1,4 +1,4 @@
-#include "tools/roscell/daemon/config_file.hpp"
+#include "tools/roscell/config/config_file.hpp"
 
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/exit_code.hpp"

@@ -4,7 +4,6 @@
 #include "messages/rebalance.hpp"
 #include "messages/skill.hpp"
 #include "messages/task.hpp"
-#include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/view/table.hpp"
 
 #include <string>
@@ -27,10 +26,6 @@ std::string waiting_text(const safety_wait& wait);
 /// one operation, at least one.
 std::string skill_view(const std::vector<skill_row>& rows,
                        const text_style& style);
-
-/// Prints what has happened to a task, in order; as JSON lines if so wanted.
-void print_history(const node_client& node, const std::string& task,
-                   bool as_json);
 
 /// The moves with their gains, and the totals before and after them.
 std::string rebalance_view(const cell_rebalanced& report,

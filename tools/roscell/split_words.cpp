@@ -1,4 +1,4 @@
-#include "tools/roscell/shell/split_words.hpp"
+#include "tools/roscell/split_words.hpp"
 
 #include <string_view>
 #include <utility>

@@ -13,7 +13,10 @@
 #include <string>
 #include <vector>
 
-/// INTERNAL to this folder.
+/// INTERNAL to this folder: how a participant of Fast DDS gets its datagrams.
+/// `datagram_inlet` owns the sockets on which it hears; `discovery_transport`
+/// makes the transport of Fast DDS that uses one, and lets only those datagrams
+/// pass that Fast DDS reads safely.
 namespace roscell {
 
 struct inlet_options {
@@ -59,8 +62,6 @@ private:
   mutable std::mutex mutex_; // Guards what follows.
   std::map<std::uint16_t, std::vector<std::unique_ptr<entry>>> ports_;
 };
-
-// INTERNAL to this folder.
 
 struct discovery_transport_options {
   std::string address;                   ///< IPv4, of this host.

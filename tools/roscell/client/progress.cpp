@@ -1,4 +1,4 @@
-#include "tools/roscell/view/progress.hpp"
+#include "tools/roscell/client/progress.hpp"
 
 #include "tools/roscell/view/terminal.hpp"
 
@@ -14,11 +14,11 @@ constexpr std::chrono::seconds silent_at_first{1};
 
 } // namespace
 
-progress::progress(const node_client& node, event_line_function words)
-    : words_{std::move(words)}, events_{lines_of(node),
+progress::progress(const node_client& node, event_line_function lines)
+    : lines_{std::move(lines)}, events_{lines_of(node),
                                         {[](auto&&) {},
                                          [this](const event& e) {
-                                           for (const auto& x : words_(e))
+                                           for (const auto& x : lines_(e))
                                              print_line(x);
                                          },
                                          // The request itself meets the same
@@ -43,8 +43,8 @@ void progress::print_line(const std::string& line) {
 
 json post_with_progress(const node_client& node, const std::string& body,
                         std::chrono::milliseconds limit,
-                        event_line_function words) {
-  progress reporter{node, std::move(words)};
+                        event_line_function lines) {
+  progress reporter{node, std::move(lines)};
   auto reply = std::async(std::launch::async, [&] {
     return node.post("/v1/requests", body, limit);
   });

@@ -1,4 +1,4 @@
-#include "tools/roscell/daemon/service_signals.hpp"
+#include "tools/roscell/service_signals.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "tools/roscell/daemon/node_options.hpp"
+#include "tools/roscell/config/node_options.hpp"
 
 #include "tools/roscell/client/target.hpp"
 #include "tools/roscell/commands.hpp"

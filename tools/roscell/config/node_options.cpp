@@ -1,4 +1,4 @@
-#include "tools/roscell/daemon/node_options.hpp"
+#include "tools/roscell/config/node_options.hpp"
 
 #include "actors/edge/io/socket_address.hpp"
 #include "tools/roscell/client/target.hpp"

@@ -1,4 +1,4 @@
-#include "actors/edge/dds/rtps/discovery_transport.hpp"
+#include "actors/edge/dds/discovery_transport.hpp"
 
 #include "actors/edge/dds/rtps/discovery_wire.hpp"
 #include "dds/host_transport.hpp"

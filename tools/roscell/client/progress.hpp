@@ -20,14 +20,14 @@ class progress {
 public:
   /// `node` must outlive this. Never fails: without events there is just no
   /// progress to be told.
-  progress(const node_client& node, event_line_function words);
+  progress(const node_client& node, event_line_function lines);
 
   void begin();
 
 private:
   void print_line(const std::string& line);
 
-  event_line_function words_;
+  event_line_function lines_;
   std::mutex mutex_;
   bool begun_ = false;
   std::vector<std::string> held_; ///< Lines until `begin`.
@@ -38,6 +38,6 @@ private:
 /// what goes on meanwhile is told on standard error.
 json post_with_progress(const node_client& node, const std::string& body,
                         std::chrono::milliseconds limit,
-                        event_line_function words);
+                        event_line_function lines);
 
 } // namespace roscell::cli

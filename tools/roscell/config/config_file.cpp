@@ -1,4 +1,4 @@
-#include "tools/roscell/daemon/config_file.hpp"
+#include "tools/roscell/config/config_file.hpp"
 
 #include "schemas/text_excerpt.hpp"
 #include "tools/roscell/client/read_file.hpp"

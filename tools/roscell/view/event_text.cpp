@@ -1,4 +1,4 @@
-#include "tools/roscell/client/event_text.hpp"
+#include "tools/roscell/view/event_text.hpp"
 
 #include "actors/edge/io/node_time.hpp"
 #include "messages/event_kinds.hpp"
@@ -23,12 +23,12 @@ std::string value_text(const json& value);
 
 /// The elements of an array, or the members of an object, in one line.
 std::string inner_text(const json& value) {
-  std::vector<std::string> words;
+  std::vector<std::string> parts;
   for (const auto& [key, inner] : value.items()) {
     const auto text = value_text(inner);
-    words.push_back(value.is_object() ? key + " " + text : text);
+    parts.push_back(value.is_object() ? key + " " + text : text);
   }
-  return joined(words, ", ");
+  return joined(parts, ", ");
 }
 
 /// A value as people write it.
@@ -50,7 +50,7 @@ std::string text_at(const json& data, const char* key) {
                                                    : "";
 }
 
-std::string words(std::string what) {
+std::string spaced(std::string what) {
   std::replace(what.begin(), what.end(), '_', ' ');
   return what;
 }
@@ -71,12 +71,12 @@ std::vector<std::string> placements(const json& data) {
 
 /// "camera→head, poses→arm"; empty if the value is no allocation.
 std::string placement_text(const json& value) {
-  std::vector<std::string> words;
+  std::vector<std::string> parts;
   if (value.is_array())
     for (const auto& a : value)
       if (a.is_object() && a.contains("step") && a.contains("node"))
-        words.push_back(text_at(a, "step") + "→" + text_at(a, "node"));
-  return joined(words, ", ");
+        parts.push_back(text_at(a, "step") + "→" + text_at(a, "node"));
+  return joined(parts, ", ");
 }
 
 /// "camera_1 starting on arm-1"; the task is in the instance's id.
@@ -95,8 +95,8 @@ std::string particular(const std::string& key, const json& value) {
       || (value.is_structured() && value.empty()))
     return {};
   if (key == "allocations")
-    if (auto words = placement_text(value); !words.empty())
-      return words;
+    if (auto text = placement_text(value); !text.empty())
+      return text;
   // Of a score people want the total.
   if (key == "score" && value.is_object() && value.contains("total"))
     return "score=" + value_text(value["total"]);
@@ -151,18 +151,18 @@ std::string event_line(const event& e, size_t width) {
 }
 
 std::string event_particulars(const event& e) {
-  std::vector<std::string> words;
+  std::vector<std::string> parts;
   auto data = particulars(e);
   if (e.what == events::instance_changed)
     if (auto change = change_text(data); !change.empty()) {
-      words.push_back(std::move(change));
+      parts.push_back(std::move(change));
       for (const auto* key : {"step", "state", "node", "task"})
         data.erase(key);
     }
   for (const auto& [key, value] : data.items())
     if (auto text = particular(key, value); !text.empty())
-      words.push_back(std::move(text));
-  return joined(words, " ");
+      parts.push_back(std::move(text));
+  return joined(parts, " ");
 }
 
 std::string event_text(const event& e, const char* key) {
@@ -194,9 +194,9 @@ std::vector<std::string> progress_lines(const event& e,
   // the coordinator then says it again for the cell.
   if (!step.empty() && node.empty())
     return {};
-  auto line = step.empty() ? words(e.what)
+  auto line = step.empty() ? spaced(e.what)
                            : "step " + step + ": "
-                                 + (state.empty() ? words(e.what) : state)
+                                 + (state.empty() ? spaced(e.what) : state)
                                  + " on " + node;
   if (!reason.empty())
     line += ": " + reason;
@@ -207,7 +207,7 @@ std::vector<std::string> movement_lines(const event& e,
                                         const std::vector<std::string>& nodes) {
   if (std::find(nodes.begin(), nodes.end(), e.subject) == nodes.end())
     return {};
-  auto line = e.subject + ": " + words(e.what);
+  auto line = e.subject + ": " + spaced(e.what);
   const auto data = particulars(e);
   for (const auto* key : {"state", "reason"})
     if (const auto text = text_at(data, key); !text.empty())
