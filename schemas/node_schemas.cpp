@@ -27,7 +27,7 @@ namespace {
 template <class Message>
 schema_entry made(std::string_view reply = {},
                   std::string_view kind = "session") {
-  return {Message::type, kind, reply, {}, message_schema<Message>};
+  return {Message::type, kind, reply, {}, field_schemas::of_fields<Message>};
 }
 
 template <class Request, class Reply>
@@ -44,9 +44,10 @@ json schema_entry::document() const {
   if (make == nullptr)
     return json::parse(text);
   auto result = make();
+  field_schemas::add_member(result, "type", {{"const", name}}, true);
   if (kind == "request")
-    result["properties"]["request_id"] =
-        field_schemas::definition("request_id");
+    field_schemas::add_member(result, "request_id",
+                              field_schemas::definition("request_id"), false);
   return result;
 }
 

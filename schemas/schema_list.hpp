@@ -16,7 +16,7 @@ struct schema_entry {
   std::string_view text;    ///< Of the file; empty: it is made.
   json (*make)() = nullptr; ///< Of its fields; null: it is a file.
 
-  /// Every request may have a `request_id`.
+  /// What is made of fields has a `type`, too, and a request a `request_id`.
   json document() const;
 };
 

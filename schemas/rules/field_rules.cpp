@@ -81,4 +81,16 @@ json definition(std::string_view name) {
   return {{"$ref", "common.schema.json#/definitions/" + std::string{name}}};
 }
 
+json empty_object() {
+  return {{"type", "object"},
+          {"required", json::array()},
+          {"properties", json::object()}};
+}
+
+void add_member(json& object, const char* name, json rule, bool required) {
+  object["properties"][name] = std::move(rule);
+  if (required)
+    object["required"].push_back(name);
+}
+
 } // namespace roscell::field_schemas

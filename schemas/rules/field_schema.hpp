@@ -33,6 +33,10 @@ json one_or_list(std::string_view field, const json& items);
 /// A reference to a definition of schemas/common.schema.json.
 json definition(std::string_view name);
 
+/// The schema of an object, whose members are then added.
+json empty_object();
+void add_member(json& object, const char* name, json rule, bool required);
+
 template <class T>
 struct is_list : std::false_type {};
 
@@ -72,27 +76,16 @@ json of_field(std::string_view field, Member Struct::*) {
 /// message is required: it is what its envelope is for.
 template <class T>
 json of_fields() {
-  json result{{"type", "object"},
-              {"required", json::array()},
-              {"properties", json::object()}};
+  auto result = empty_object();
   for_each_field<T>([&result](const auto& x) {
     using field = std::decay_t<decltype(x)>;
-    result["properties"][x.name] = of_field<field>(x.name, x.member);
-    if (field::kind == presence::required || field::kind == presence::raw_json)
-      result["required"].push_back(x.name);
+    constexpr bool required =
+        field::kind == presence::required || field::kind == presence::raw_json;
+    add_member(result, x.name, of_field<field>(x.name, x.member), required);
   });
   return result;
 }
 
 } // namespace field_schemas
-
-/// The schema of a message, which besides its fields has its type.
-template <class Message>
-json message_schema() {
-  auto result = field_schemas::of_fields<Message>();
-  result["required"].push_back("type");
-  result["properties"]["type"] = {{"const", Message::type}};
-  return result;
-}
 
 } // namespace roscell
