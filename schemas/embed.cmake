@@ -1,8 +1,7 @@
-# Writes OUTPUT, the definition of `embedded_schemas()`, from the files SCHEMAS.
-# The table is sorted by name, which is the file's name up to the first dot.
+# Writes OUTPUT, the definition of `file_schemas()`, from the files SCHEMAS. The
+# name of a schema is its file's up to the first dot.
 
 cmake_minimum_required(VERSION 3.25)
-list(SORT SCHEMAS COMPARE FILE_BASENAME)
 
 set(rows "")
 foreach(file IN LISTS SCHEMAS)
@@ -18,19 +17,21 @@ foreach(file IN LISTS SCHEMAS)
 endforeach()
 
 file(WRITE ${OUTPUT}
-"#include \"schemas/embedded_schemas.hpp\"
+"#include \"schemas/schema_list.hpp\"
+
+#include <iterator>
 
 namespace roscell {
 
 namespace {
 
-constexpr embedded_schema table[] = {
+constexpr schema_entry files[] = {
 ${rows}};
 
 } // namespace
 
-embedded_schema_list embedded_schemas() {
-  return {std::begin(table), std::end(table)};
+std::vector<schema_entry> file_schemas() {
+  return {std::begin(files), std::end(files)};
 }
 
 } // namespace roscell

@@ -1,7 +1,7 @@
 #include "schemas/message_catalogue.hpp"
 
 #include "messages/codec/json_codec.hpp"
-#include "schemas/embedded_schemas.hpp"
+#include "schemas/schema_list.hpp"
 #include "schemas/text_excerpt.hpp"
 #include "schemas/validator.hpp"
 
@@ -25,7 +25,7 @@ message_kind kind_named(std::string_view word) {
 
 std::vector<message_type> read_types() {
   std::vector<message_type> result;
-  for (const auto& schema : embedded_schemas())
+  for (const auto& schema : all_schemas())
     result.push_back({schema.name, kind_named(schema.kind), schema.reply});
   return result;
 }

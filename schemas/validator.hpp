@@ -35,9 +35,9 @@ enum class unknown_members {
   refused, ///< A user is no newer peer: one that is misspelt would be dropped.
 };
 
-/// Checks documents against the embedded schemas. A schema is read when it is
-/// first needed and then kept: a node that never sees a message type does not
-/// pay for it. All members may be called by several threads at once.
+/// Checks documents against the schemas of the project. A schema is read when
+/// it is first needed and then kept: a node that never sees a message type does
+/// not pay for it. All members may be called by several threads at once.
 class validator {
 public:
   /// More errors than this are not collected from one document.
@@ -53,8 +53,8 @@ public:
   static const validator& shared();
 
   /// Every error of `document` against the schema of that name, in the order
-  /// of the schema; none if it is valid. The name is that of an embedded
-  /// schema, anything else throws std::logic_error.
+  /// of the schema; none if it is valid. The name is that of a schema of
+  /// the project, anything else throws std::logic_error.
   std::vector<schema_error>
   validate(std::string_view schema, const json& document,
            unknown_members others = unknown_members::taken) const;

@@ -1,6 +1,6 @@
 #include "schemas/rules/schema_rule.hpp"
 
-#include "schemas/embedded_schemas.hpp"
+#include "schemas/schema_list.hpp"
 
 #include <algorithm>
 #include <array>
@@ -69,9 +69,9 @@ const schema_rule& schema_reader::rule(const std::string& name) {
   const auto key = name + ".schema.json";
   if (auto i = slots_.find(key); i != slots_.end())
     return i->second;
-  for (const auto& schema : embedded_schemas())
+  for (const auto& schema : all_schemas())
     if (schema.name == name)
-      return read(name, json::parse(schema.text));
+      return read(name, schema.document());
   throw std::logic_error{"no schema has the name " + name};
 }
 

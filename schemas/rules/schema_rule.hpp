@@ -102,13 +102,13 @@ std::string rule_text(const schema_rule& rule);
 /// they are. Not thread-safe.
 class schema_reader {
 public:
-  /// The rule of an embedded schema; read when it is first asked for, along
-  /// with the documents that it refers to. Throws std::logic_error for an
+  /// The rule of a schema of the project; read when it is first asked for,
+  /// along with the documents that it refers to. Throws std::logic_error for an
   /// unknown name, or for a schema with a keyword that the rules cannot
   /// express: both are defects of this program.
   const schema_rule& rule(const std::string& name);
 
-  /// As `rule`, for a schema that is not embedded; tests use it.
+  /// As `rule`, for any other schema; tests use it.
   const schema_rule& read(const std::string& name, const json& document);
 
 private:

@@ -1,4 +1,4 @@
-#include "schemas/embedded_schemas.hpp"
+#include "schemas/schema_list.hpp"
 #include "test/places.hpp"
 #include "test/schemas/examples.hpp"
 
@@ -25,8 +25,8 @@ using schema_set = std::map<std::string, json>;
 
 schema_set present_schemas() {
   schema_set result;
-  for (const auto& x : embedded_schemas())
-    result[std::string{x.name}] = json::parse(x.text);
+  for (const auto& x : all_schemas())
+    result[std::string{x.name}] = x.document();
   return result;
 }
 

@@ -1,6 +1,6 @@
 #include "test/schemas/oracle.hpp"
 
-#include "schemas/embedded_schemas.hpp"
+#include "schemas/schema_list.hpp"
 
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
@@ -18,10 +18,10 @@ namespace {
 using adapter = valijson::adapters::NlohmannJsonAdapter;
 
 json document_named(std::string_view name) {
-  for (const auto& schema : embedded_schemas()) {
+  for (const auto& schema : all_schemas()) {
     if (schema.name != name)
       continue;
-    auto result = json::parse(schema.text);
+    auto result = schema.document();
     // Without it, valijson takes references as they stand.
     result.erase("$id");
     return result;

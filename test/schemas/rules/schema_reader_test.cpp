@@ -1,6 +1,6 @@
 #include "schemas/rules/schema_rule.hpp"
 
-#include "schemas/embedded_schemas.hpp"
+#include "schemas/schema_list.hpp"
 #include "test/schemas/examples.hpp"
 
 #include <catch2/catch.hpp>
@@ -30,9 +30,10 @@ void for_each_schema(
 }
 
 void for_each_schema(
+    const std::vector<schema_entry>& schemas,
     const std::function<void(const json&, const std::string&)>& visit) {
-  for (const auto& schema : embedded_schemas())
-    for_each_schema(json::parse(schema.text), json::json_pointer{},
+  for (const auto& schema : schemas)
+    for_each_schema(schema.document(), json::json_pointer{},
                     [&](const json& part, const json::json_pointer& at) {
                       visit(part,
                             std::string{schema.name} + "#" + at.to_string());
@@ -48,17 +49,17 @@ schema_rule rule_of(const char* text) {
 
 TEST_CASE("every schema can be read") {
   schema_reader reader;
-  CHECK(embedded_schemas().size() > 40);
-  for (const auto& schema : embedded_schemas()) {
+  CHECK(all_schemas().size() > 90);
+  for (const auto& schema : all_schemas()) {
     INFO(schema.name);
     CHECK_NOTHROW(reader.rule(std::string{schema.name}));
   }
 }
 
-TEST_CASE("the embedded schemas are the files of the folder") {
-  for (const auto& schema : embedded_schemas()) {
+TEST_CASE("the schemas that are files are those of the folder") {
+  for (const auto& schema : file_schemas()) {
     auto file = std::string{schema.name} + ".schema.json";
-    auto document = json::parse(schema.text);
+    auto document = schema.document();
     CHECK(schema.text
           == test::read_file(test::source_dir() / "schemas" / file));
     CHECK(document["$id"] == file);
@@ -70,34 +71,36 @@ TEST_CASE("the embedded schemas are the files of the folder") {
 }
 
 TEST_CASE("the type that a schema names is that of its file") {
-  for (const auto& schema : embedded_schemas()) {
-    auto type = json::parse(schema.text)
-                    .value("/properties/type"_json_pointer, json::object());
+  for (const auto& schema : all_schemas()) {
+    auto type = schema.document().value("/properties/type"_json_pointer,
+                                        json::object());
     if (type.contains("const"))
       CHECK(type["const"] == schema.name);
   }
 }
 
 TEST_CASE("every request may carry a request id") {
-  for (const auto& schema : embedded_schemas())
+  for (const auto& schema : all_schemas())
     if (schema.kind == "request")
-      CHECK(json::parse(schema.text)["properties"].contains("request_id"));
+      CHECK(schema.document()["properties"].contains("request_id"));
 }
 
-TEST_CASE("every property has a description, its own or that of its parts") {
-  for_each_schema([](const json& schema, const std::string& at) {
-    INFO(at);
-    if (schema.contains("properties"))
-      for (const auto& [name, part] : schema["properties"].items())
-        CHECK((part.contains("description") || part.contains("$ref")));
-    if (schema.contains("definitions"))
-      for (const auto& [name, part] : schema["definitions"].items())
-        CHECK((part.contains("description") || part.contains("items")));
-  });
+TEST_CASE("every property in a file has a description, its own or that of its "
+          "parts") {
+  for_each_schema(
+      file_schemas(), [](const json& schema, const std::string& at) {
+        INFO(at);
+        if (schema.contains("properties"))
+          for (const auto& [name, part] : schema["properties"].items())
+            CHECK((part.contains("description") || part.contains("$ref")));
+        if (schema.contains("definitions"))
+          for (const auto& [name, part] : schema["definitions"].items())
+            CHECK((part.contains("description") || part.contains("items")));
+      });
 }
 
 TEST_CASE("every string, array, map and number is bounded") {
-  for_each_schema([](const json& schema, const std::string& at) {
+  for_each_schema(all_schemas(), [](const json& schema, const std::string& at) {
     INFO(at);
     std::set<std::string> types;
     if (schema.contains("type") && schema["type"].is_array())
@@ -119,7 +122,7 @@ TEST_CASE("every string, array, map and number is bounded") {
 TEST_CASE("every definition is used") {
   std::set<std::string> used;
   std::set<std::string> defined;
-  for_each_schema([&](const json& schema, const std::string&) {
+  for_each_schema(all_schemas(), [&](const json& schema, const std::string&) {
     if (auto reference = schema.value("$ref", ""); !reference.empty())
       used.insert(reference.substr(reference.find('#') + 1));
     if (schema.contains("definitions"))
@@ -142,8 +145,8 @@ TEST_CASE("the choices of oneOf have no kind of value in common") {
       seen |= choice->kinds;
     }
   };
-  for (const auto& schema : embedded_schemas()) {
-    const auto document = json::parse(schema.text);
+  for (const auto& schema : all_schemas()) {
+    const auto document = schema.document();
     const auto definitions = document.value("definitions", json::object());
     for_each_schema(
         document, json::json_pointer{},
