@@ -42,8 +42,7 @@ const std::string once = R"({"follow":false})";
 } // namespace
 
 TEST_CASE("each line of a text file is a frame, also the last one") {
-  temp_folder folder;
-  folder.write("in.txt", "one\n\nthree");
+  temp_folder folder{"in.txt", "one\n\nthree"};
   running_input input{make_input(folder / "in.txt", once)};
   CHECK(input.wait() == "ended");
   CHECK(payload(input, 0) == "one");
@@ -54,8 +53,7 @@ TEST_CASE("each line of a text file is a frame, also the last one") {
 }
 
 TEST_CASE("a text file is followed as it grows") {
-  temp_folder folder;
-  folder.write("in", "one\n");
+  temp_folder folder{"in", "one\n"};
   running_input input{make_input(folder / "in")};
   CHECK(payload(input, 0) == "one");
   folder.append("in", "two\n");
@@ -66,8 +64,7 @@ TEST_CASE("a text file is followed as it grows") {
 }
 
 TEST_CASE("a text file that is cut is read from its start") {
-  temp_folder folder;
-  folder.write("in", "a long first line\n");
+  temp_folder folder{"in", "a long first line\n"};
   running_input input{make_input(folder / "in")};
   CHECK(payload(input, 0) == "a long first line");
   REQUIRE(::truncate((folder / "in").c_str(), 0) == 0);
@@ -76,8 +73,7 @@ TEST_CASE("a text file that is cut is read from its start") {
 }
 
 TEST_CASE("a text file is followed across its replacement") {
-  temp_folder folder;
-  folder.write("in", "old\nrest");
+  temp_folder folder{"in", "old\nrest"};
   running_input input{make_input(folder / "in")};
   CHECK(payload(input, 0) == "old");
   folder.write("new", "new\n");
@@ -89,8 +85,7 @@ TEST_CASE("a text file is followed across its replacement") {
 }
 
 TEST_CASE("a text file may be away for a while") {
-  temp_folder folder;
-  folder.write("in", "old\n");
+  temp_folder folder{"in", "old\n"};
   running_input input{make_input(folder / "in")};
   CHECK(payload(input, 0) == "old");
   REQUIRE(std::rename((folder / "in").c_str(), (folder / "old").c_str()) == 0);
@@ -158,8 +153,7 @@ TEST_CASE("a folder that is taken away breaks the input") {
 }
 
 TEST_CASE("a file of another type is one frame, and one more when replaced") {
-  temp_folder folder;
-  folder.write("in.png", "line\nline\n");
+  temp_folder folder{"in.png", "line\nline\n"};
   running_input input{make_input(folder / "in.png", "{}", "image/png")};
   CHECK(payload(input, 0) == "line\nline\n");
   folder.write("new", "another");
@@ -185,8 +179,7 @@ TEST_CASE("a frame that is too large is skipped and said") {
 }
 
 TEST_CASE("the rate of an input is limited") {
-  temp_folder folder;
-  folder.write("in", "1\n2\n3\n4\n5\n");
+  temp_folder folder{"in", "1\n2\n3\n4\n5\n"};
   auto start = std::chrono::steady_clock::now();
   running_input input{
       make_input(folder / "in", R"({"follow":false,"rate_hz":100})")};
@@ -198,8 +191,7 @@ TEST_CASE("the rate of an input is limited") {
 }
 
 TEST_CASE("an input that waits for its turn ends when the skill stops") {
-  temp_folder folder;
-  folder.write("in", "1\n2\n");
+  temp_folder folder{"in", "1\n2\n"};
   running_input input{make_input(folder / "in", R"({"rate_hz":1e-300})")};
   CHECK(payload(input, 0) == "1");
   // The destructor stops the input and would hang if it did not end.

@@ -67,8 +67,7 @@ struct said_input {
 } // namespace
 
 TEST_CASE("a text file is followed without inotify, and that is said") {
-  temp_folder folder;
-  folder.write("in", "one\n");
+  temp_folder folder{"in", "one\n"};
   CHECK(holds_without_inotify([&] {
     said_input x{folder / "in", "text/plain"};
     const bool begins = x.gives(0, "one");
@@ -83,8 +82,7 @@ TEST_CASE("a text file is followed without inotify, and that is said") {
 
 TEST_CASE("a file of another type is followed without inotify, once for each "
           "content") {
-  temp_folder folder;
-  folder.write("in", "one");
+  temp_folder folder{"in", "one"};
   CHECK(holds_without_inotify([&] {
     said_input x{folder / "in", "image/png"};
     const bool begins = x.gives(0, "one");
@@ -94,8 +92,7 @@ TEST_CASE("a file of another type is followed without inotify, once for each "
 }
 
 TEST_CASE("a folder is followed without inotify") {
-  temp_folder folder;
-  folder.write("a", "one");
+  temp_folder folder{"a", "one"};
   CHECK(holds_without_inotify([&] {
     said_input x{folder / "", "application/octet-stream"};
     const bool begins = x.gives(0, "one");
@@ -106,8 +103,7 @@ TEST_CASE("a folder is followed without inotify") {
 
 TEST_CASE("what is still being written is not taken where changes are looked "
           "for") {
-  temp_folder folder;
-  folder.write("a", "half");
+  temp_folder folder{"a", "half"};
   CHECK(holds_without_inotify([&] {
     const inotify_watch changes;
     struct stat info {};

@@ -214,7 +214,7 @@ TEST_CASE("a container runs its program under the shim") {
 }
 
 TEST_CASE("inputs can be read, outputs written") {
-  scratch_folder folder;
+  temp_folder folder;
   auto order = echo_request();
   const auto in = folder.write("in", "").string();
   const auto base = folder.path().string();

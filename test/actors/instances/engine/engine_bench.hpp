@@ -203,7 +203,7 @@ struct engine_bench {
     script.on("POST /containers/c1/start", 204, "");
   }
 
-  scratch_folder folder;
+  temp_folder folder;
   real_time_config system_config;
   caf::actor_system system{system_config};
   caf::scoped_actor self{system};

@@ -190,7 +190,7 @@ struct process_bench {
     return get<log_excerpt>(query);
   }
 
-  scratch_folder folder;
+  temp_folder folder;
   real_time_config system_config;
   caf::actor_system system{system_config};
   caf::scoped_actor self{system};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "skills/engine/file/file_reading.hpp"
+#include "test/temp_folder.hpp"
 
 #include <poll.h>
 #include <sys/inotify.h>
@@ -24,43 +25,6 @@ namespace roscell::test {
 using steady = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds patience{20};
-
-/// A folder that is removed with all it holds.
-class temp_folder {
-public:
-  temp_folder() {
-    auto pattern =
-        (std::filesystem::temp_directory_path() / "roscell-test-XXXXXX")
-            .string();
-    if (::mkdtemp(pattern.data()) == nullptr)
-      throw std::runtime_error("cannot make a temporary folder");
-    path_ = pattern;
-  }
-
-  ~temp_folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-
-  temp_folder(const temp_folder&) = delete;
-  temp_folder& operator=(const temp_folder&) = delete;
-
-  /// The path of `name` in the folder.
-  std::string operator/(const std::string& name) const {
-    return path_ + "/" + name;
-  }
-
-  void write(const std::string& name, const std::string& content) const {
-    std::ofstream{*this / name, std::ios::binary} << content;
-  }
-
-  void append(const std::string& name, const std::string& content) const {
-    std::ofstream{*this / name, std::ios::binary | std::ios::app} << content;
-  }
-
-private:
-  std::string path_;
-};
 
 /// The whole content, or an empty text if there is no such file.
 inline std::string content_of(const std::string& path) {
