@@ -16,8 +16,6 @@ using namespace roscell::test;
 
 namespace {
 
-constexpr const char* text = ros2::std_msgs::string::type_name;
-
 /// Keeps the first text it reads.
 class text_listener : public ros2::dds::DataReaderListener {
 public:
@@ -67,8 +65,7 @@ TEST_CASE("a program of ROS 2 joins the cell by the same variables") {
   auto output = writing.output("/chatter", text);
   auto program = this_program("[stock]", home.environment("program"));
   REQUIRE(writing.log.wait_for("a reader has come"));
-  output->write(
-      frame_of(text, ros2::serialize(ros2::std_msgs::string{"hello"})));
+  output->write(text_frame("hello"));
   auto code = program.wait();
   CAPTURE(program.output());
   CHECK(code == 0);

@@ -31,13 +31,15 @@ host_probe_options options_for(const temp_folder& root) {
 }
 
 /// A host with four cores and 8000 MiB, of which 3000 are in use.
-void make_host(temp_folder& root) {
-  root.write("/proc/stat", stat_after(100));
-  root.write("/proc/meminfo", "MemTotal:        8192000 kB\n"
-                              "MemFree:          100000 kB\n"
-                              "MemAvailable:    5120000 kB\n");
-  root.write("/sys/devices/system/cpu/online", "0-2,7\n");
-}
+struct four_core_host : temp_folder {
+  four_core_host() {
+    write("/proc/stat", stat_after(100));
+    write("/proc/meminfo", "MemTotal:        8192000 kB\n"
+                           "MemFree:          100000 kB\n"
+                           "MemAvailable:    5120000 kB\n");
+    write("/sys/devices/system/cpu/online", "0-2,7\n");
+  }
+};
 
 const host_probe::clock::time_point start{1000s};
 
@@ -45,8 +47,7 @@ const host_probe::clock::time_point start{1000s};
 
 TEST_CASE("a host's memory, cores, disk and architecture are read",
           "[host_probe]") {
-  temp_folder root;
-  make_host(root);
+  four_core_host root;
   host_probe probe{options_for(root)};
   auto host = probe.read(start);
   CHECK(host.cpu.capacity == 4);
@@ -63,8 +64,7 @@ TEST_CASE("a host's memory, cores, disk and architecture are read",
 
 TEST_CASE("CPU use is the rate since a sample of at least a second ago",
           "[host_probe]") {
-  temp_folder root;
-  make_host(root);
+  four_core_host root;
   host_probe probe{options_for(root)};
   CHECK_FALSE(probe.cpu_used(start));
   probe.sample(start);
@@ -77,8 +77,7 @@ TEST_CASE("CPU use is the rate since a sample of at least a second ago",
 
 TEST_CASE("of several samples the newest that is old enough counts",
           "[host_probe]") {
-  temp_folder root;
-  make_host(root);
+  four_core_host root;
   host_probe probe{options_for(root)};
   probe.sample(start);
   root.write("/proc/stat", stat_after(110));
@@ -91,8 +90,7 @@ TEST_CASE("of several samples the newest that is old enough counts",
 
 TEST_CASE("many samples in a row leave one that is a second old",
           "[host_probe]") {
-  temp_folder root;
-  make_host(root);
+  four_core_host root;
   host_probe probe{options_for(root)};
   for (auto at = 0ms; at <= 3000ms; at += 1ms)
     probe.sample(start + at);
@@ -100,8 +98,7 @@ TEST_CASE("many samples in a row leave one that is a second old",
 }
 
 TEST_CASE("a sample of long ago is no base for a rate", "[host_probe]") {
-  temp_folder root;
-  make_host(root);
+  four_core_host root;
   host_probe probe{options_for(root)};
   probe.sample(start);
   CHECK(probe.cpu_used(start + limits::resource::most_sample_age));
@@ -110,8 +107,7 @@ TEST_CASE("a sample of long ago is no base for a rate", "[host_probe]") {
 
 TEST_CASE("without a sample in time the load average tells the CPU's use",
           "[host_probe]") {
-  temp_folder root;
-  make_host(root);
+  four_core_host root;
   root.write("/proc/loadavg", "1.50 0.90 0.40 2/345 6789\n");
   host_probe probe{options_for(root)};
   CHECK(probe.read(start).cpu.used == Approx(1.5));
@@ -124,8 +120,7 @@ TEST_CASE("without a sample in time the load average tells the CPU's use",
 
 TEST_CASE("without a sample what runs right now counts, but for the asker",
           "[host_probe]") {
-  temp_folder root;
-  make_host(root);
+  four_core_host root;
   host_probe probe{options_for(root)};
   root.write("/proc/loadavg", "0.20 0.10 0.05 4/345 6789\n");
   CHECK(probe.load_estimate() == 3);
@@ -134,8 +129,7 @@ TEST_CASE("without a sample what runs right now counts, but for the asker",
 }
 
 TEST_CASE("a load says at most that all cores are in use", "[host_probe]") {
-  temp_folder root;
-  make_host(root);
+  four_core_host root;
   host_probe probe{options_for(root)};
   root.write("/proc/loadavg", "17.03 9.01 4.00 2/345 6789\n");
   CHECK(probe.load_estimate() == 4);
@@ -170,8 +164,7 @@ TEST_CASE("damaged files of /proc give no numbers and no crash",
 
 TEST_CASE("a process that may run on fewer cores offers these",
           "[host_probe]") {
-  temp_folder root;
-  make_host(root);
+  four_core_host root;
   auto options = options_for(root);
   options.affinity_cores = 1;
   CHECK(host_probe{options}.read(start).cpu.capacity == 1);
@@ -179,8 +172,7 @@ TEST_CASE("a process that may run on fewer cores offers these",
 
 TEST_CASE("a cgroup's quota and limit bound what a host offers",
           "[host_probe]") {
-  temp_folder root;
-  make_host(root);
+  four_core_host root;
   SECTION("version 2, the tightest of the ancestors") {
     root.write("/proc/self/cgroup", "0::/robots/node\n");
     root.write("/sys/fs/cgroup/robots/node/cpu.max", "max 100000\n");
@@ -209,8 +201,7 @@ TEST_CASE("a cgroup's quota and limit bound what a host offers",
 }
 
 TEST_CASE("a cgroup without limits bounds nothing", "[host_probe]") {
-  temp_folder root;
-  make_host(root);
+  four_core_host root;
   root.write("/proc/self/cgroup", "0::/a\n4:cpu:/a\n5:memory:/a\nx\n:\n::\n");
   root.write("/sys/fs/cgroup/a/cpu.max", "max 100000\n");
   root.write("/sys/fs/cgroup/cpu/a/cpu.cfs_quota_us", "-1\n");
@@ -238,8 +229,7 @@ TEST_CASE("devices that skills ask for are listed by path, in order",
 
 TEST_CASE("a Jetson has unified memory and one GPU without its own",
           "[host_probe]") {
-  temp_folder root;
-  make_host(root);
+  four_core_host root;
   SECTION("by what its device tree is compatible with") {
     root.write("/proc/device-tree/compatible",
                std::string{"nvidia,p3737-0000\0nvidia,tegra234\0", 33});
