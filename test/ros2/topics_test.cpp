@@ -1,5 +1,4 @@
 #include "cell_fixture.hpp"
-
 #include "roscell/ros2/cdr.hpp"
 #include "roscell/ros2/image_view.hpp"
 #include "roscell/ros2/sensor_msgs.hpp"
@@ -7,6 +6,7 @@
 #include "roscell/ros2/std_msgs.hpp"
 #include "roscell/ros2/tf2_msgs.hpp"
 #include "roscell/skill/errors.hpp"
+#include "skills/ros2/topic_input.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -270,4 +270,16 @@ TEST_CASE("an output that moves writes again what it keeps for late readers") {
   CHECK(text_of(input.sink().wait_for(1)) == "three");
   output->write(text_frame("four"));
   CHECK(text_of(input.sink().wait_for(2)) == "four");
+}
+
+TEST_CASE("messages that are missing between two of a writer are counted") {
+  ros2::gap_counter gaps;
+  const ros2::guid one{1};
+  const ros2::guid two{2};
+  CHECK(gaps.add(one, 17) == 0); // Those before are not ours.
+  CHECK(gaps.add(one, 18) == 0);
+  CHECK(gaps.add(one, 21) == 2);
+  CHECK(gaps.add(two, 1) == 0);
+  CHECK(gaps.add(one, 20) == 0); // Late, or twice: nothing is missing.
+  CHECK(gaps.add(one, 22) == 0);
 }

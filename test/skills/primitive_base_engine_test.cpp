@@ -404,18 +404,18 @@ TEST_CASE_METHOD(fixture, "a stop before the start ends the skill cleanly") {
 namespace {
 
 /// A node that hears what the skill tells it.
-struct told_node : fixture {
+struct notified_node : fixture {
   temp_folder folder;
   notify_receiver node{folder / "notify"};
 
-  told_node() {
+  notified_node() {
     env.notify_socket = folder / "notify";
   }
 };
 
 } // namespace
 
-TEST_CASE_METHOD(told_node,
+TEST_CASE_METHOD(notified_node,
                  "an engine tells its node of its start and its end") {
   CHECK(run() == exit_code::done);
   CHECK(node.receive() == "READY=1");
@@ -423,7 +423,7 @@ TEST_CASE_METHOD(told_node,
              Contains("STOPPING=1\nSTATUS=frames=3 "));
 }
 
-TEST_CASE_METHOD(told_node,
+TEST_CASE_METHOD(notified_node,
                  "a node is told of the frames of each stream, and in "
                  "one short line why nothing comes of them") {
   env.inputs[0].endpoint = "12";
@@ -436,13 +436,13 @@ TEST_CASE_METHOD(told_node,
   CHECK(last.size() < 1000);
 }
 
-TEST_CASE_METHOD(told_node, "a skill that cannot start is never ready") {
+TEST_CASE_METHOD(notified_node, "a skill that cannot start is never ready") {
   env.inputs[0].endpoint = "closed";
   CHECK(run() == exit_code::cannot_start);
   CHECK_FALSE(node.receive_now());
 }
 
-TEST_CASE_METHOD(told_node,
+TEST_CASE_METHOD(notified_node,
                  "an executor says whether it is stop-safe, and hears that "
                  "somebody waits for that") {
   env.model = "careful";
@@ -467,7 +467,7 @@ TEST_CASE_METHOD(fixture, "an executor that does not care goes on when it is "
   CHECK(log.text == "open 1 2 3 release close");
 }
 
-TEST_CASE_METHOD(told_node,
+TEST_CASE_METHOD(notified_node,
                  "streams are measured where the node wants to know") {
   env.health = true;
   env.inputs = {{"live", "3", "n"}, {"live", "0", "n"}};

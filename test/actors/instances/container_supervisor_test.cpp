@@ -47,7 +47,7 @@ struct supervisor_bench : virtual_time {
   }
 
   template <class Message>
-  void tell(const Message& message) {
+  void notify(const Message& message) {
     caf::anon_send(supervisor, message);
     settle();
   }
@@ -69,7 +69,7 @@ struct supervisor_bench : virtual_time {
   }
 
   void say(const std::string& instance, const std::string& status = {}) {
-    tell(instance_notified{instance, true, true, false, status, false});
+    notify(instance_notified{instance, true, true, false, status, false});
   }
 
   /// Deploys an instance, which says that it is ready.
@@ -80,7 +80,7 @@ struct supervisor_bench : virtual_time {
 
   void exit_of(const std::string& instance, const std::string& container,
                int code) {
-    tell(container_exited{instance, container, code});
+    notify(container_exited{instance, container, code});
   }
 
   /// An instance that an earlier run of the node has left in "c0".
@@ -394,10 +394,10 @@ TEST_CASE("programs of another address are started again at the present one") {
   b.config.started_at["stayed"] = "10.0.0.9";
   b.start();
   // Where it is to find the cell is not known yet, also if it is wanted.
-  b.tell(contact_proven{1, {"moved", "stayed"}});
+  b.notify(contact_proven{1, {"moved", "stayed"}});
   CHECK(b.runtime->stopped.empty());
   for (int i = 0; i < 2; ++i) {
-    b.tell(use_environment{{{"ROS_DISCOVERY_SERVER", "10.0.0.9:11811"}}});
+    b.notify(use_environment{{{"ROS_DISCOVERY_SERVER", "10.0.0.9:11811"}}});
     b.advance(1ms);
   }
   REQUIRE(b.runtime->stopped.size() == 1);
@@ -423,7 +423,7 @@ TEST_CASE("programs of a coordinator at another address are told its server "
         return true;
       };
   b.start();
-  b.tell(contact_proven{1, {"moved"}});
+  b.notify(contact_proven{1, {"moved"}});
   CHECK(reported == words{"10.0.0.9:11812"});
   CHECK(b.row("moved").state == instance_state::running);
   CHECK(b.runtime->stopped.empty());
@@ -435,7 +435,7 @@ TEST_CASE("programs that know no discovery server do not mind an address") {
   b.config.address = "10.0.0.9";
   b.config.started_at = {{"r", "10.0.0.5"}};
   b.start();
-  b.tell(contact_proven{1, {"r"}});
+  b.notify(contact_proven{1, {"r"}});
   CHECK(b.runtime->stopped.empty());
 }
 
@@ -465,7 +465,7 @@ TEST_CASE("the listener hears once that an input is silent, and of its end") {
   const auto say = [&](std::chrono::seconds pause) {
     for (auto passed = 0s; passed < pause; passed += 4s) {
       b.advance(4s);
-      b.tell(said);
+      b.notify(said);
     }
   };
   say(4s);
@@ -605,7 +605,7 @@ TEST_CASE("what has ended stays known until the coordinator keeps it") {
   CHECK(b.runtime->removed.size() == 8);
   CHECK(b.rows().size() == kept + 8);
   CHECK(b.store->states("i0").back() == "failed");
-  b.tell(ends_acknowledged{ended});
+  b.notify(ends_acknowledged{ended});
   CHECK(b.rows().size() == kept);
   CHECK(b.store->states("i0").back() == "-");
 }
@@ -644,13 +644,13 @@ TEST_CASE("what nobody acknowledges is bounded, and so are its bytes") {
 TEST_CASE("an engine's problem is told of every live instance, and its end") {
   started_bench b;
   b.run("i");
-  b.tell(runtime_problem_changed{"the engine is away"});
+  b.notify(runtime_problem_changed{"the engine is away"});
   CHECK(b.row("i").problem == "the engine is away");
   CHECK(b.row("i").state == instance_state::running);
   CHECK(b.reported->last().problem == "the engine is away");
   b.deploy("j");
   CHECK(b.row("j").problem == "the engine is away");
-  b.tell(runtime_problem_changed{});
+  b.notify(runtime_problem_changed{});
   CHECK(b.row("i").problem.empty());
   CHECK(b.row("j").problem.empty());
 }

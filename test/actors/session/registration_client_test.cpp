@@ -1,5 +1,4 @@
 #include "actors/session/registration_client.hpp"
-
 #include "messages/messages.hpp"
 
 #include <catch2/catch.hpp>
