@@ -11,23 +11,23 @@ namespace {
 
 using namespace std::chrono_literals;
 
-bool never(const std::string&) {
+bool never_held(const std::string&) {
   return false;
 }
 
 } // namespace
 
-TEST_CASE("A place counts from the question on", "[slot_table]") {
+TEST_CASE("A slot counts from the question on", "[slot_table]") {
   slot_table table;
   table.promise("arm", "c-1", time_zero);
   table.promise("leg", "c-1", time_zero);
   table.promise("eye", "c-2", time_zero);
-  CHECK(table.count_at("c-1", never) == 2);
-  CHECK(table.count_at("c-2", never) == 1);
-  CHECK(table.count_at("c-3", never) == 0);
+  CHECK(table.count_at("c-1", never_held) == 2);
+  CHECK(table.count_at("c-2", never_held) == 1);
+  CHECK(table.count_at("c-3", never_held) == 0);
 }
 
-TEST_CASE("A place that the cell has told of counts once", "[slot_table]") {
+TEST_CASE("A slot that the cell has published counts once", "[slot_table]") {
   slot_table table;
   table.promise("arm", "c-1", time_zero);
   table.promise("leg", "c-1", time_zero);
@@ -49,7 +49,7 @@ TEST_CASE("A node has one place at a time", "[slot_table]") {
   slot_table table;
   table.promise("arm", "c-1", time_zero);
   table.promise("arm", "c-2", time_zero);
-  CHECK(table.count_at("c-1", never) == 0);
+  CHECK(table.count_at("c-1", never_held) == 0);
   // The refusal of the first one comes late.
   table.forget("arm", "c-1");
   CHECK(table.find("arm", time_zero) == "c-2");
