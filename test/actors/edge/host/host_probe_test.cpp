@@ -1,7 +1,7 @@
 #include "actors/edge/host/host_probe.hpp"
 #include "actors/edge/limits.hpp"
-#include "host_probe_fixture.hpp"
 #include "test/places.hpp"
+#include "test/temp_folder.hpp"
 
 #include <catch2/catch.hpp>
 

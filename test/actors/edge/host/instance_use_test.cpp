@@ -1,5 +1,5 @@
 #include "actors/edge/host/instance_use.hpp"
-#include "host_probe_fixture.hpp"
+#include "test/temp_folder.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -100,8 +100,8 @@ constexpr const char* container =
 /// A host with a hierarchy of version 2 in its folder.
 struct fake_host : temp_folder {
   fake_host() {
-    write("/proc/self/mountinfo",
-          "30 23 0:26 / " + path() + "/cgroup rw - cgroup2 cgroup2 rw\n");
+    write("/proc/self/mountinfo", "30 23 0:26 / " + path().string()
+                                      + "/cgroup rw - cgroup2 cgroup2 rw\n");
   }
 
   void put(const std::string& cgroup, const std::string& mib) {
