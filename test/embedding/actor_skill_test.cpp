@@ -46,7 +46,8 @@ json task_of(const json& steps) {
 
 /// A node with one skill beside a source of frames.
 struct skill_site {
-  explicit skill_site(actor_skill_factory make) : setup(setup_in(folder.path)) {
+  explicit skill_site(actor_skill_factory make)
+      : setup(setup_in(folder.path())) {
     setup.skills = {{descriptor_of("source"), source},
                     {descriptor_of("work"), std::move(make)}};
     node = std::make_unique<embedded_node>(setup);
@@ -67,7 +68,7 @@ struct skill_site {
     return nullptr;
   }
 
-  scratch_folder folder;
+  temp_folder folder;
   node_setup setup;
   std::unique_ptr<embedded_node> node;
   std::unique_ptr<asker> program;
@@ -226,11 +227,11 @@ TEST_CASE("a factory that blocks holds up neither node nor program, and is "
 }
 
 TEST_CASE("a folder cannot offer the engine for actors") {
-  scratch_folder folder;
-  auto setup = setup_in(folder.path);
-  setup.node.skill_dirs = {folder.path / "skills"};
-  std::filesystem::create_directories(folder.path / "skills/work");
-  std::ofstream{folder.path / "skills/work/skill.json"}
+  temp_folder folder;
+  auto setup = setup_in(folder.path());
+  setup.node.skill_dirs = {folder.path() / "skills"};
+  std::filesystem::create_directories(folder.path() / "skills/work");
+  std::ofstream{folder.path() / "skills/work/skill.json"}
       << descriptor_of("work");
   embedded_node node{setup};
   const auto shown = asker{node}.ask({{"type", "skill_query"}});

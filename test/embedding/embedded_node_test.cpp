@@ -55,8 +55,8 @@ unsigned last_core() {
 } // namespace
 
 TEST_CASE("a node starts, answers and ends within a program") {
-  scratch_folder folder;
-  embedded_node node{setup_in(folder.path)};
+  temp_folder folder;
+  embedded_node node{setup_in(folder.path())};
   CHECK(node.facts().name == "controller");
   const auto said = asker{node}.ask({{"type", "node_query"}});
   CHECK(said.at("identity").at("name") == "controller");
@@ -65,16 +65,16 @@ TEST_CASE("a node starts, answers and ends within a program") {
 }
 
 TEST_CASE("two nodes of one program cannot share a data directory") {
-  scratch_folder folder;
-  const auto setup = setup_in(folder.path);
+  temp_folder folder;
+  const auto setup = setup_in(folder.path());
   embedded_node node{setup};
   CHECK(code_of([&] { embedded_node{setup}; }) == "conflict");
   CHECK_FALSE(node.has_ended());
 }
 
 TEST_CASE("several nodes live in one program, each with its own cell") {
-  scratch_folder one;
-  scratch_folder two;
+  temp_folder one;
+  temp_folder two;
   auto other = setup_in(two.path);
   other.node.name = "other";
   embedded_node first{setup_in(one.path)};
@@ -84,30 +84,30 @@ TEST_CASE("several nodes live in one program, each with its own cell") {
 }
 
 TEST_CASE("an actor system that does not know our messages is refused") {
-  scratch_folder folder;
+  temp_folder folder;
   caf::actor_system_config config;
   caf::actor_system system{config};
   CHECK(code_of([&] {
-          embedded_node{system, setup_in(folder.path)};
+          embedded_node{system, setup_in(folder.path())};
         })
         == "internal");
 }
 
 TEST_CASE("a node lives in the program's own actor system, too") {
-  scratch_folder folder;
+  temp_folder folder;
   caf::actor_system_config config;
   add_message_types(config);
   caf::actor_system system{config};
-  embedded_node node{system, setup_in(folder.path)};
+  embedded_node node{system, setup_in(folder.path())};
   CHECK(asker{node}.ask({{"type", "node_query"}}).at("identity").at("name")
         == "controller");
 }
 
 TEST_CASE("an environment that would mislead DDS is refused, and stays as it "
           "is") {
-  scratch_folder folder;
+  temp_folder folder;
   ::setenv("ROS_DISCOVERY_SERVER", "10.0.0.1:11811", 1);
-  const auto code = code_of([&] { embedded_node{setup_in(folder.path)}; });
+  const auto code = code_of([&] { embedded_node{setup_in(folder.path())}; });
   const std::string after = std::getenv("ROS_DISCOVERY_SERVER");
   ::unsetenv("ROS_DISCOVERY_SERVER");
   CHECK(code == "conflict");
@@ -115,9 +115,9 @@ TEST_CASE("an environment that would mislead DDS is refused, and stays as it "
 }
 
 TEST_CASE("threads of a node run on its cores only and take no signals") {
-  scratch_folder folder;
+  temp_folder folder;
   const auto before = threads("Cpus_allowed_list");
-  auto setup = setup_in(folder.path);
+  auto setup = setup_in(folder.path());
   setup.threads.cpus = {last_core()};
   embedded_node node{setup};
   CHECK(threads("Cpus_allowed_list").size() > 5);
@@ -131,8 +131,8 @@ TEST_CASE("threads of a node run on its cores only and take no signals") {
 }
 
 TEST_CASE("a core that is not there is refused") {
-  scratch_folder folder;
-  auto setup = setup_in(folder.path);
+  temp_folder folder;
+  auto setup = setup_in(folder.path());
   setup.threads.cpus = {1000};
   CHECK(code_of([&] { embedded_node{setup}; }) == "schema_violation");
 }
@@ -140,8 +140,8 @@ TEST_CASE("a core that is not there is refused") {
 namespace {
 
 void start_and_stop() {
-  scratch_folder folder;
-  embedded_node node{setup_in(folder.path)};
+  temp_folder folder;
+  embedded_node node{setup_in(folder.path())};
   REQUIRE(node.stop());
 }
 
@@ -179,8 +179,8 @@ TEST_CASE("a hundred starts and stops take no memory", "[.][hundred]") {
 }
 
 TEST_CASE("a client asks a node, and is told when it goes away") {
-  scratch_folder folder;
-  auto node = std::make_unique<embedded_node>(setup_in(folder.path));
+  temp_folder folder;
+  auto node = std::make_unique<embedded_node>(setup_in(folder.path()));
   const client from_outside{{node->facts().socket, "", 0, ""}};
   CHECK(json::parse(from_outside.get("/v1/node")).at("identity").at("name")
         == "controller");

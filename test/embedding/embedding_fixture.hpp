@@ -3,6 +3,7 @@
 #include "messages/codec/json_codec.hpp"
 #include "roscell/node.hpp"
 #include "test/places.hpp"
+#include "test/temp_folder.hpp"
 
 #include <caf/actor_system.hpp>
 #include <caf/actor_system_config.hpp>
@@ -22,25 +23,6 @@
 #include <unistd.h>
 
 namespace roscell::test {
-
-/// A folder that goes with the test.
-struct scratch_folder {
-  scratch_folder() {
-    std::string name = "/tmp/roscell-embedding.XXXXXX";
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-
-  ~scratch_folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-
-  scratch_folder(const scratch_folder&) = delete;
-  scratch_folder& operator=(const scratch_folder&) = delete;
-
-  std::filesystem::path path;
-};
 
 /// A coordinator on this host alone, with ports of its own.
 inline node_setup setup_in(const std::filesystem::path& folder) {

@@ -82,10 +82,10 @@ std::string code_of_call(const std::function<void()>& call) {
 } // namespace
 
 TEST_CASE("a program hears events and log of its node by plain calls") {
-  scratch_folder folder;
+  temp_folder folder;
   heard_status events;
   heard_status lines;
-  auto setup = setup_in(folder.path);
+  auto setup = setup_in(folder.path());
   setup.calls.on_event = [&](const node_event& x) {
     events.add(x.what + " " + x.subject);
     throw std::runtime_error{"which holds nobody up"};
@@ -108,9 +108,9 @@ TEST_CASE("a program hears events and log of its node by plain calls") {
 }
 
 TEST_CASE("a program hears what keeps its node from its cell") {
-  scratch_folder folder;
+  temp_folder folder;
   heard_status problems;
-  auto setup = setup_in(folder.path);
+  auto setup = setup_in(folder.path());
   setup.node.coordinator = false;
   // Nobody listens there.
   setup.node.join = "127.0.0.1:9";
@@ -122,9 +122,9 @@ TEST_CASE("a program hears what keeps its node from its cell") {
 }
 
 TEST_CASE("a program runs, asks, watches and stops a task by plain calls") {
-  scratch_folder folder;
+  temp_folder folder;
   heard_status states;
-  embedded_node node{setup_with_skill(folder.path)};
+  embedded_node node{setup_with_skill(folder.path())};
   const auto watch = node.watch(
       "t", [&](const task_status& x) { states.add(x.task + " " + x.state); });
   CHECK(states.has("t gone"));
@@ -142,11 +142,11 @@ TEST_CASE("a program runs, asks, watches and stops a task by plain calls") {
 }
 
 TEST_CASE("a program at a member hears of each change elsewhere at once") {
-  scratch_folder folder;
-  embedded_node base{setup_with_skill(folder.path)};
+  temp_folder folder;
+  embedded_node base{setup_with_skill(folder.path())};
   // Both are of one user, who has one site token.
-  auto setup = setup_in(folder.path);
-  setup.node.data_dir = folder.path / "arm";
+  auto setup = setup_in(folder.path());
+  setup.node.data_dir = folder.path() / "arm";
   setup.node.name = "arm";
   setup.node.coordinator = false;
   setup.node.join = base.facts().discovery_server;
@@ -169,13 +169,13 @@ TEST_CASE("a program at a member hears of each change elsewhere at once") {
 }
 
 TEST_CASE("a watch at a member goes on when its coordinator is back") {
-  scratch_folder folder;
+  temp_folder folder;
   heard_status states;
-  auto coordinator = setup_with_skill(folder.path);
+  auto coordinator = setup_with_skill(folder.path());
   auto base = std::make_unique<embedded_node>(coordinator);
   const auto server = base->facts().discovery_server;
-  auto setup = setup_in(folder.path);
-  setup.node.data_dir = folder.path / "arm";
+  auto setup = setup_in(folder.path());
+  setup.node.data_dir = folder.path() / "arm";
   setup.node.name = "arm";
   setup.node.coordinator = false;
   setup.node.join = server;
@@ -193,10 +193,10 @@ TEST_CASE("a watch at a member goes on when its coordinator is back") {
 }
 
 TEST_CASE("a program hears that its node lacks the site token") {
-  scratch_folder folder;
-  embedded_node base{setup_in(folder.path)};
+  temp_folder folder;
+  embedded_node base{setup_in(folder.path())};
   heard_status problems;
-  const auto other = folder.path / "other";
+  const auto other = folder.path() / "other";
   std::filesystem::create_directory(other);
   auto setup = setup_in(other);
   setup.node.name = "arm";
@@ -212,8 +212,8 @@ TEST_CASE("a program hears that its node lacks the site token") {
 }
 
 TEST_CASE("a plain call that is refused throws with the code of the refusal") {
-  scratch_folder folder;
-  embedded_node node{setup_in(folder.path)};
+  temp_folder folder;
+  embedded_node node{setup_in(folder.path())};
   CHECK(code_of_call([&] { node.run(rest); }) == "unknown_operation");
   CHECK(code_of_call([&] { node.run("pipeline: ["); }) == "malformed_json");
   CHECK(code_of_call([&] { node.stop("t"); }) == "unknown_task");
@@ -221,8 +221,8 @@ TEST_CASE("a plain call that is refused throws with the code of the refusal") {
 }
 
 TEST_CASE("a watch may be ended by its own call, and makes no other one") {
-  scratch_folder folder;
-  embedded_node node{setup_in(folder.path)};
+  temp_folder folder;
+  embedded_node node{setup_in(folder.path())};
   std::mutex mutex;
   std::unique_ptr<task_watch> watch;
   heard_status calls;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "test/skills/temp_folder.hpp"
+#include "test/skills/files.hpp"
 
 #include <fcntl.h>
 #include <poll.h>

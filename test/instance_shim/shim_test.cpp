@@ -137,8 +137,7 @@ TEST_CASE("a program that is still being written is run when it is closed") {
 }
 
 TEST_CASE("the shim runs the command in the folder it is told") {
-  temp_folder folder;
-  folder.write("here", "found\n");
+  temp_folder folder{"here", "found\n"};
   child_process process{{shim, "--dir", folder / "i", "--log-bytes", "4096",
                          "--cwd", folder / "", "--", "/bin/cat", "here"},
                         {}};

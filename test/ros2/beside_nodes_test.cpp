@@ -2,17 +2,12 @@
 
 #include "actors/edge/dds/server_inquiry.hpp"
 
-#include "roscell/ros2/cdr.hpp"
-#include "roscell/ros2/std_msgs.hpp"
-
 #include <catch2/catch.hpp>
 
 using namespace roscell;
 using namespace roscell::test;
 
 namespace {
-
-constexpr const char* text = ros2::std_msgs::string::type_name;
 
 /// A node that looks for the coordinator behind the discovery server.
 class member {
@@ -33,23 +28,6 @@ public:
 private:
   std::unique_ptr<server_inquiry> inquiry_;
 };
-
-/// A message goes from one new skill to another.
-void check_message(const cell& home) {
-  skill reading{home.environment("reader")};
-  skill writing{home.environment("writer")};
-  running_input input{reading.input("/chatter", text)};
-  auto output = writing.output("/chatter", text);
-  output->write(
-      frame_of(text, ros2::serialize(ros2::std_msgs::string{"early"})));
-  REQUIRE(writing.log.wait_for("has come; now 1"));
-  output->write(
-      frame_of(text, ros2::serialize(ros2::std_msgs::string{"hello"})));
-  auto got = input.sink().wait_for(0);
-  REQUIRE(got);
-  CHECK(ros2::deserialize<ros2::std_msgs::string>(got->payload).data
-        == "hello");
-}
 
 } // namespace
 

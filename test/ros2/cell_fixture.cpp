@@ -1,6 +1,7 @@
 #include "cell_fixture.hpp"
 
 #include "roscell/ros2.hpp"
+#include "roscell/ros2/cdr.hpp"
 
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
@@ -105,6 +106,26 @@ engine::frame frame_of(const std::string& type, std::string payload) {
   result.data_type = type;
   result.payload = std::move(payload);
   return result;
+}
+
+engine::frame text_frame(const std::string& data) {
+  return frame_of(text, ros2::serialize(ros2::std_msgs::string{data}));
+}
+
+std::string text_of(const std::optional<engine::frame>& x) {
+  return x ? ros2::deserialize<ros2::std_msgs::string>(x->payload).data
+           : "nothing";
+}
+
+void check_message(const cell& home) {
+  skill reading{home.environment("reader")};
+  skill writing{home.environment("writer")};
+  running_input input{reading.input("/chatter", text)};
+  auto output = writing.output("/chatter", text);
+  output->write(text_frame("early"));
+  REQUIRE(writing.log.wait_for("has come; now 1"));
+  output->write(text_frame("hello"));
+  CHECK(text_of(input.sink().wait_for(0)) == "hello");
 }
 
 } // namespace roscell::test

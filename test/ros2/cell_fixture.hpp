@@ -1,5 +1,6 @@
 #pragma once
 
+#include "roscell/ros2/std_msgs.hpp"
 #include "roscell/skill/registry.hpp"
 
 #include "actors/edge/dds/discovery_server.hpp"
@@ -10,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -82,5 +84,24 @@ private:
 };
 
 engine::frame frame_of(const std::string& type, std::string payload);
+
+inline constexpr const char* text = ros2::std_msgs::string::type_name;
+
+engine::frame text_frame(const std::string& data);
+
+/// What a frame of text says; "nothing" where there is no frame.
+std::string text_of(const std::optional<engine::frame>& x);
+
+/// Two skills of one cell.
+struct two_skills {
+  explicit two_skills(std::uint32_t domain_id = 0) : home{0, domain_id} {}
+
+  cell home;
+  skill reading{home.environment("reader")};
+  skill writing{home.environment("writer")};
+};
+
+/// A message goes from one new skill of the cell to another.
+void check_message(const cell& home);
 
 } // namespace roscell::test

@@ -2,8 +2,6 @@
 
 #include "dds/server_addresses.hpp"
 #include "roscell/ros2.hpp"
-#include "roscell/ros2/cdr.hpp"
-#include "roscell/ros2/std_msgs.hpp"
 #include "roscell/skill/errors.hpp"
 #include "skills/engine/life/unique_fd.hpp"
 #include "skills/engine/primitive_base_engine.hpp"
@@ -94,21 +92,7 @@ TEST_CASE("skills hear each other beside more programs than a domain has ports "
           "for") {
   constexpr std::uint32_t domain = 112;
   const auto crowd = take("127.0.0.1", ports_of(domain), 400, 1);
-  constexpr auto type = ros2::std_msgs::string::type_name;
-  cell home{0, domain};
-  skill reading{home.environment("reader")};
-  skill writing{home.environment("writer")};
-  running_input input{reading.input("/chatter", type)};
-  auto output = writing.output("/chatter", type);
-  output->write(
-      frame_of(type, ros2::serialize(ros2::std_msgs::string{"early"})));
-  REQUIRE(writing.log.wait_for("has come; now 1"));
-  output->write(
-      frame_of(type, ros2::serialize(ros2::std_msgs::string{"hello"})));
-  const auto got = input.sink().wait_for(0);
-  REQUIRE(got);
-  CHECK(ros2::deserialize<ros2::std_msgs::string>(got->payload).data
-        == "hello");
+  check_message(cell{0, domain});
 }
 
 TEST_CASE("a participant that no port is left for is refused, not deaf") {

@@ -1,5 +1,4 @@
 #include "cell_fixture.hpp"
-
 #include "roscell/ros2/cdr.hpp"
 #include "roscell/ros2/image_view.hpp"
 #include "roscell/ros2/sensor_msgs.hpp"
@@ -7,6 +6,7 @@
 #include "roscell/ros2/std_msgs.hpp"
 #include "roscell/ros2/tf2_msgs.hpp"
 #include "roscell/skill/errors.hpp"
+#include "skills/ros2/topic_input.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -15,17 +15,7 @@ using namespace roscell::test;
 
 namespace {
 
-constexpr const char* text = ros2::std_msgs::string::type_name;
 constexpr const char* image = ros2::sensor_msgs::image::type_name;
-
-engine::frame text_frame(const std::string& data) {
-  return frame_of(text, ros2::serialize(ros2::std_msgs::string{data}));
-}
-
-std::string text_of(const std::optional<engine::frame>& x) {
-  return x ? ros2::deserialize<ros2::std_msgs::string>(x->payload).data
-           : "nothing";
-}
 
 /// An image with a stamp, of one row for each number of pixels.
 std::string image_payload(std::uint32_t height, std::uint32_t width) {
@@ -44,10 +34,7 @@ std::string image_payload(std::uint32_t height, std::uint32_t width) {
 
 } // namespace
 
-TEST_CASE("a message reaches the readers of its cell") {
-  cell home{0};
-  skill reading{home.environment("reader")};
-  skill writing{home.environment("writer")};
+TEST_CASE_METHOD(two_skills, "a message reaches the readers of its cell") {
   running_input input{reading.input("/chatter", text)};
   auto output = writing.output("/chatter", text);
   REQUIRE(writing.log.wait_for("'/chatter': a reader has come; now 1"));
@@ -91,10 +78,9 @@ TEST_CASE("two cells with the same topic never see each other's messages") {
     CHECK(log->lines().size() == 1);
 }
 
-TEST_CASE("an image of megabytes arrives whole, with its stamp as its time") {
-  cell home{0};
-  skill reading{home.environment("reader")};
-  skill writing{home.environment("writer")};
+TEST_CASE_METHOD(
+    two_skills,
+    "an image of megabytes arrives whole, with its stamp as its time") {
   reading.parameters = {{"ros2_reliability", "reliable"}};
   running_input input{reading.input("/scene_1/image", image)};
   auto output = writing.output("/scene_1/image", image);
@@ -109,10 +95,8 @@ TEST_CASE("an image of megabytes arrives whole, with its stamp as its time") {
   CHECK(input.sink().policies().front() == engine::when_full::drop_oldest);
 }
 
-TEST_CASE("an image whose sizes lie is refused by who looks at it") {
-  cell home{0};
-  skill reading{home.environment("reader")};
-  skill writing{home.environment("writer")};
+TEST_CASE_METHOD(two_skills,
+                 "an image whose sizes lie is refused by who looks at it") {
   running_input input{reading.input("/image", image)};
   auto output = writing.output("/image", image);
   // A reader with best effort gets nothing before it knows the writer.
@@ -143,11 +127,10 @@ TEST_CASE("a reader that comes late gets the static transforms") {
   CHECK(ros2::deserialize<ros2::tf2_msgs::tf_message>(got->payload) == sent);
 }
 
-TEST_CASE("a reader that wants more than is offered says which parameter to "
-          "set") {
-  cell home{0};
-  skill reading{home.environment("reader")};
-  skill writing{home.environment("writer")};
+TEST_CASE_METHOD(
+    two_skills,
+    "a reader that wants more than is offered says which parameter to "
+    "set") {
   reading.parameters = {{"ros2_reliability", "reliable"}};
   writing.parameters = {{"ros2_reliability", "best_effort"}};
   running_input input{reading.input("/chatter", text)};
@@ -194,12 +177,10 @@ TEST_CASE("an output that nobody reads closes at once") {
 }
 
 TEST_CASE("a skill can be in the highest ROS domain") {
-  cell home{0, 232};
-  skill reading{home.environment("reader")};
-  skill writing{home.environment("writer")};
-  running_input input{reading.input("/chatter", text)};
-  auto output = writing.output("/chatter", text);
-  REQUIRE(writing.log.wait_for("has come; now 1"));
+  two_skills x{232};
+  running_input input{x.reading.input("/chatter", text)};
+  auto output = x.writing.output("/chatter", text);
+  REQUIRE(x.writing.log.wait_for("has come; now 1"));
   output->write(text_frame("hello"));
   CHECK(text_of(input.sink().wait_for(0)) == "hello");
 }
@@ -236,10 +217,7 @@ private:
 
 } // namespace
 
-TEST_CASE("an input that moves counts what it has missed") {
-  cell home{0};
-  skill reading{home.environment("reader")};
-  skill writing{home.environment("writer")};
+TEST_CASE_METHOD(two_skills, "an input that moves counts what it has missed") {
   moving_input input{reading, home, "/chatter"};
   auto output = writing.output("/chatter", text);
   REQUIRE(reading.log.wait_for("a writer has come"));
@@ -257,10 +235,9 @@ TEST_CASE("an input that moves counts what it has missed") {
   CHECK(reading.log.wait_for("'/chatter' has lost 2 messages on the way"));
 }
 
-TEST_CASE("an input that moves gets nothing twice of what a writer keeps") {
-  cell home{0};
-  skill reading{home.environment("reader")};
-  skill writing{home.environment("writer")};
+TEST_CASE_METHOD(
+    two_skills,
+    "an input that moves gets nothing twice of what a writer keeps") {
   for (auto* end : {&reading, &writing})
     end->parameters = {{"ros2_durability", "transient_local"}};
   moving_input input{reading, home, "/map"};
@@ -293,4 +270,16 @@ TEST_CASE("an output that moves writes again what it keeps for late readers") {
   CHECK(text_of(input.sink().wait_for(1)) == "three");
   output->write(text_frame("four"));
   CHECK(text_of(input.sink().wait_for(2)) == "four");
+}
+
+TEST_CASE("messages that are missing between two of a writer are counted") {
+  ros2::gap_counter gaps;
+  const ros2::guid one{1};
+  const ros2::guid two{2};
+  CHECK(gaps.add(one, 17) == 0); // Those before are not ours.
+  CHECK(gaps.add(one, 18) == 0);
+  CHECK(gaps.add(one, 21) == 2);
+  CHECK(gaps.add(two, 1) == 0);
+  CHECK(gaps.add(one, 20) == 0); // Late, or twice: nothing is missing.
+  CHECK(gaps.add(one, 22) == 0);
 }

@@ -15,7 +15,6 @@ using namespace roscell::test;
 
 namespace {
 
-constexpr const char* text = ros2::std_msgs::string::type_name;
 constexpr const char* image = ros2::sensor_msgs::image::type_name;
 
 /// Says how large an image is.
@@ -90,9 +89,7 @@ TEST_CASE("a skill goes on after an image whose sizes lie") {
   lie[24] = 7; // Its width, behind a header without a name.
   images->write(frame_of(image, lie));
   images->write(frame_of(image, gray_image(2, 3)));
-  auto got = sizes.sink().wait_for(0);
-  REQUIRE(got);
-  CHECK(ros2::deserialize<ros2::std_msgs::string>(got->payload).data == "3x2");
+  CHECK(text_of(sizes.sink().wait_for(0)) == "3x2");
   CHECK(reporter.log.wait_for("frame 'image-1' failed (1 in a row): field "
                               "'step': 3 bytes are too few for 7 pixels"));
   CHECK(reporter.stop() == engine::exit_code::done);
@@ -123,9 +120,7 @@ TEST_CASE("a skill goes on in another place when its node tells it so") {
   REQUIRE(far_camera.log.wait_for("a reader has come", 2));
   REQUIRE(reporter.log.wait_for("'/size': a reader has come", 2));
   images->write(frame_of(image, gray_image(4, 5)));
-  const auto got = sizes.sink().wait_for(1);
-  REQUIRE(got);
-  CHECK(ros2::deserialize<ros2::std_msgs::string>(got->payload).data == "5x4");
+  CHECK(text_of(sizes.sink().wait_for(1)) == "5x4");
   CHECK(reporter.stop() == engine::exit_code::done);
   CHECK_FALSE(write_environment_update(reported, home.environment("teller")));
 }

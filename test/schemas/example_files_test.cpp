@@ -1,13 +1,18 @@
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
 #include "schemas/validator.hpp"
+#include "test/places.hpp"
 #include "test/schemas/examples.hpp"
 #include "test/schemas/oracle.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
+#include <set>
+#include <string>
+#include <vector>
 
 using namespace roscell;
 using namespace roscell::test;
@@ -71,7 +76,7 @@ TEST_CASE("every schema has valid and invalid examples") {
 
 TEST_CASE("a valid example has no errors, an invalid one all that it names") {
   for (const auto& x : examples()) {
-    INFO(x.file);
+    INFO(x.name);
     CHECK(places(errors_of(x)) == x.where);
   }
 }
@@ -79,7 +84,7 @@ TEST_CASE("a valid example has no errors, an invalid one all that it names") {
 TEST_CASE("every error of an example says what was expected and what came") {
   for (const auto& x : examples()) {
     for (const auto& error : errors_of(x)) {
-      INFO(x.file << ": " << error.expected);
+      INFO(x.name << ": " << error.expected);
       CHECK(error.expected.rfind("expected ", 0) == 0);
       auto says_finding =
           error.expected.find(", got ") != std::string::npos
@@ -91,8 +96,8 @@ TEST_CASE("every error of an example says what was expected and what came") {
 
 TEST_CASE("an example is parsed to what it says") {
   for (const auto& x : examples()) {
-    INFO(x.file);
-    auto parsed = parse_document(read_file(x.file));
+    INFO(x.name);
+    auto parsed = parse_document(x.text);
     REQUIRE(std::holds_alternative<json>(parsed));
     CHECK(std::get<json>(parsed) == x.document);
   }
@@ -100,7 +105,7 @@ TEST_CASE("an example is parsed to what it says") {
 
 TEST_CASE("another validator judges the examples alike") {
   for (const auto& x : examples()) {
-    INFO(x.file);
+    INFO(x.name);
     auto valid = validator::shared().validate(x.type, x.document).empty();
     CHECK(valid == oracle_accepts(x.type, x.document));
   }
@@ -118,7 +123,7 @@ TEST_CASE("another validator judges damaged examples alike") {
         ++damaged;
         auto valid = validator::shared().validate(x.type, document).empty();
         if (valid != oracle_accepts(x.type, document))
-          FAIL(x.file << " with " << odd << " at " << place.to_string());
+          FAIL(x.name << " with " << odd << " at " << place.to_string());
       }
     }
   }
@@ -135,7 +140,85 @@ TEST_CASE("another validator judges examples with a missing part alike") {
       parent.erase(place.back());
       auto valid = validator::shared().validate(x.type, document).empty();
       if (valid != oracle_accepts(x.type, document))
-        FAIL(x.file << " without " << place.to_string());
+        FAIL(x.name << " without " << place.to_string());
     }
   }
+}
+
+namespace fs = std::filesystem;
+
+namespace {
+
+json request_in(const fs::path& path) {
+  const auto text = read_file(path);
+  auto parsed = parse_document(text, format_of(path.string(), text));
+  REQUIRE(std::holds_alternative<json>(parsed));
+  auto result = std::get<json>(parsed);
+  // `roscell run` takes a task request for granted.
+  result.emplace("type", "task_request");
+  return result;
+}
+
+/// The requests of the ladder, and of the three strategies.
+std::vector<fs::path> example_requests() {
+  std::vector<fs::path> result;
+  for (const auto* folder : {"docs/examples", "docs/examples/strategies"})
+    for (const auto& file : fs::directory_iterator{test::source_dir() / folder})
+      if (const auto ending = file.path().extension();
+          ending == ".json" || ending == ".yaml")
+        result.push_back(file.path());
+  return result;
+}
+
+} // namespace
+
+TEST_CASE("each request file of docs/examples is a valid task request") {
+  const auto files = example_requests();
+  CHECK(files.size() >= 12);
+  for (const auto& file : files) {
+    INFO(file);
+    CHECK(document_errors("task_request", request_in(file),
+                          unknown_members::refused)
+              .empty());
+  }
+}
+
+TEST_CASE("a topic that an example reads is written by a step of it") {
+  for (const auto* name : {"strategy_1", "strategy_2", "strategy_3"}) {
+    auto request = request_in(test::source_dir() / "docs/examples/strategies"
+                              / (std::string{name} + ".json"));
+    std::map<std::string, std::string> written;
+    for (const auto& step : request["pipeline"])
+      for (const auto& output : step["output"])
+        written[output["endpoint"]] = output["data_type"];
+    for (const auto& step : request["pipeline"])
+      if (step["operation"] == "pose_estimation")
+        for (const auto& input : step["input"]) {
+          INFO(name << " " << input);
+          CHECK(written[input["endpoint"]] == input["data_type"]);
+        }
+  }
+}
+
+TEST_CASE("the descriptor of each bundled skill is valid, each model unique") {
+  std::set<std::string> models;
+  for (const auto& folder :
+       fs::directory_iterator{test::source_dir() / "skills"}) {
+    const auto file = folder.path() / "skill.json";
+    if (!fs::exists(file))
+      continue;
+    INFO(file);
+    auto parsed = parse_document(read_file(file));
+    REQUIRE(std::holds_alternative<json>(parsed));
+    const auto& descriptor = std::get<json>(parsed);
+    CHECK(document_errors("skill_descriptor", descriptor,
+                          unknown_members::refused)
+              .empty());
+    for (const auto& model : descriptor["models"])
+      CHECK(models
+                .insert(descriptor["operation"].get<std::string>() + " "
+                        + model["name"].get<std::string>())
+                .second);
+  }
+  CHECK(models.count("pose_estimation apriltag3") == 1);
 }

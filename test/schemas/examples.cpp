@@ -13,24 +13,32 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<std::string> sorted_lines(const fs::path& path) {
-  std::istringstream text{read_file(path)};
-  std::vector<std::string> result;
-  for (std::string line; std::getline(text, line);)
-    result.push_back(line);
-  std::sort(result.begin(), result.end());
-  return result;
+example valid_example(const fs::path& path) {
+  const auto type = path.parent_path().filename().string();
+  const auto text = read_file(path);
+  return {type, type + "/" + path.stem().string(),
+          text, json::parse(text),
+          true, {}};
 }
 
-example read_example(const fs::path& path) {
-  example result;
-  result.type = path.parent_path().filename().string();
-  result.file = path;
-  result.document = json::parse(read_file(path));
-  result.valid = path.filename().string().rfind("valid-", 0) == 0;
-  if (!result.valid)
-    result.where = sorted_lines(fs::path{path}.replace_extension(".where"));
-  return result;
+json invalid_document(const fs::path& folder, const json& x) {
+  if (x.contains("document"))
+    return x["document"];
+  const auto valid = "valid-" + x.at("from").get<std::string>() + ".json";
+  return json::parse(read_file(folder / valid)).patch(x.at("patch"));
+}
+
+example invalid_example(const fs::path& folder, const json& x) {
+  const auto type = folder.filename().string();
+  const auto document = invalid_document(folder, x);
+  auto where = x.at("where").get<std::vector<std::string>>();
+  std::sort(where.begin(), where.end());
+  return {type,
+          type + "/invalid-" + x.at("name").get<std::string>(),
+          document.dump(2),
+          document,
+          false,
+          where};
 }
 
 } // namespace
@@ -45,15 +53,18 @@ std::string read_file(const fs::path& path) {
 }
 
 std::vector<example> examples() {
-  std::vector<fs::path> paths;
-  auto folder = source_dir() / "test/schemas/examples";
-  for (const auto& entry : fs::recursive_directory_iterator{folder})
-    if (entry.path().extension() == ".json")
-      paths.push_back(entry.path());
-  std::sort(paths.begin(), paths.end());
   std::vector<example> result;
-  for (const auto& path : paths)
-    result.push_back(read_example(path));
+  auto folder = source_dir() / "test/schemas/examples";
+  for (const auto& entry : fs::recursive_directory_iterator{folder}) {
+    const auto& path = entry.path();
+    if (path.filename() == "invalid.json")
+      for (const auto& x : json::parse(read_file(path)))
+        result.push_back(invalid_example(path.parent_path(), x));
+    else if (path.extension() == ".json")
+      result.push_back(valid_example(path));
+  }
+  std::sort(result.begin(), result.end(),
+            [](const auto& a, const auto& b) { return a.name < b.name; });
   return result;
 }
 

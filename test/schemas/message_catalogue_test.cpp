@@ -99,14 +99,14 @@ TEST_CASE("messages of the examples are judged as their documents are") {
     auto type = find_message_type(x.type);
     if (type == nullptr || type->kind >= message_kind::document)
       continue;
-    INFO(x.file);
+    INFO(x.name);
     CHECK(validate_message(x.document).has_value() != x.valid);
   }
 }
 
 TEST_CASE("an error reply about any example is itself a valid message") {
   for (const auto& x : test::examples()) {
-    INFO(x.file);
+    INFO(x.name);
     if (auto why = validate_document(x.type, x.document))
       CHECK_FALSE(validate_message(error_reply(*why)));
   }

@@ -34,7 +34,7 @@ struct skill_shelf {
     REQUIRE(skills->skills().size() == 1);
   }
 
-  scratch_folder folder;
+  temp_folder folder;
   shared_skill_catalogue skills;
 };
 

@@ -2,7 +2,7 @@
 
 #include "skills/engine/life/unique_fd.hpp"
 
-#include "test/skills/temp_folder.hpp"
+#include "test/skills/files.hpp"
 
 #include <fcntl.h>
 #include <sys/resource.h>

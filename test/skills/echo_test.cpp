@@ -39,8 +39,7 @@ std::string echo() {
 } // namespace
 
 TEST_CASE("echo repeats a growing file until it is told to stop") {
-  temp_folder folder;
-  folder.write("in", "one\ntwo\n");
+  temp_folder folder{"in", "one\ntwo\n"};
   notify_receiver node{folder / "notify"};
   child_process skill{{echo()}, variables_of(folder, {{"prefix", "> "}})};
   CHECK(node.receive() == "READY=1");
@@ -59,8 +58,7 @@ TEST_CASE("echo repeats a growing file until it is told to stop") {
 }
 
 TEST_CASE("echo lives on when somebody waits for it to be stop-safe") {
-  temp_folder folder;
-  folder.write("in", "one\n");
+  temp_folder folder{"in", "one\n"};
   notify_receiver node{folder / "notify"};
   child_process skill{{echo()}, variables_of(folder, json::object())};
   CHECK(node.receive() == "READY=1");

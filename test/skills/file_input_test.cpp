@@ -1,16 +1,22 @@
 #include "roscell/skill/errors.hpp"
 #include "skills/engine/file/file_protocol.hpp"
-
+#include "skills/engine/file/file_reading.hpp"
 #include "test/skills/support.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <sched.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
+#include <fstream>
+#include <functional>
 #include <future>
+#include <utility>
 
 using namespace roscell::engine;
 using namespace roscell::test;
@@ -42,8 +48,7 @@ const std::string once = R"({"follow":false})";
 } // namespace
 
 TEST_CASE("each line of a text file is a frame, also the last one") {
-  temp_folder folder;
-  folder.write("in.txt", "one\n\nthree");
+  temp_folder folder{"in.txt", "one\n\nthree"};
   running_input input{make_input(folder / "in.txt", once)};
   CHECK(input.wait() == "ended");
   CHECK(payload(input, 0) == "one");
@@ -54,8 +59,7 @@ TEST_CASE("each line of a text file is a frame, also the last one") {
 }
 
 TEST_CASE("a text file is followed as it grows") {
-  temp_folder folder;
-  folder.write("in", "one\n");
+  temp_folder folder{"in", "one\n"};
   running_input input{make_input(folder / "in")};
   CHECK(payload(input, 0) == "one");
   folder.append("in", "two\n");
@@ -66,8 +70,7 @@ TEST_CASE("a text file is followed as it grows") {
 }
 
 TEST_CASE("a text file that is cut is read from its start") {
-  temp_folder folder;
-  folder.write("in", "a long first line\n");
+  temp_folder folder{"in", "a long first line\n"};
   running_input input{make_input(folder / "in")};
   CHECK(payload(input, 0) == "a long first line");
   REQUIRE(::truncate((folder / "in").c_str(), 0) == 0);
@@ -76,8 +79,7 @@ TEST_CASE("a text file that is cut is read from its start") {
 }
 
 TEST_CASE("a text file is followed across its replacement") {
-  temp_folder folder;
-  folder.write("in", "old\nrest");
+  temp_folder folder{"in", "old\nrest"};
   running_input input{make_input(folder / "in")};
   CHECK(payload(input, 0) == "old");
   folder.write("new", "new\n");
@@ -89,8 +91,7 @@ TEST_CASE("a text file is followed across its replacement") {
 }
 
 TEST_CASE("a text file may be away for a while") {
-  temp_folder folder;
-  folder.write("in", "old\n");
+  temp_folder folder{"in", "old\n"};
   running_input input{make_input(folder / "in")};
   CHECK(payload(input, 0) == "old");
   REQUIRE(std::rename((folder / "in").c_str(), (folder / "old").c_str()) == 0);
@@ -158,8 +159,7 @@ TEST_CASE("a folder that is taken away breaks the input") {
 }
 
 TEST_CASE("a file of another type is one frame, and one more when replaced") {
-  temp_folder folder;
-  folder.write("in.png", "line\nline\n");
+  temp_folder folder{"in.png", "line\nline\n"};
   running_input input{make_input(folder / "in.png", "{}", "image/png")};
   CHECK(payload(input, 0) == "line\nline\n");
   folder.write("new", "another");
@@ -185,8 +185,7 @@ TEST_CASE("a frame that is too large is skipped and said") {
 }
 
 TEST_CASE("the rate of an input is limited") {
-  temp_folder folder;
-  folder.write("in", "1\n2\n3\n4\n5\n");
+  temp_folder folder{"in", "1\n2\n3\n4\n5\n"};
   auto start = std::chrono::steady_clock::now();
   running_input input{
       make_input(folder / "in", R"({"follow":false,"rate_hz":100})")};
@@ -198,8 +197,7 @@ TEST_CASE("the rate of an input is limited") {
 }
 
 TEST_CASE("an input that waits for its turn ends when the skill stops") {
-  temp_folder folder;
-  folder.write("in", "1\n2\n");
+  temp_folder folder{"in", "1\n2\n"};
   running_input input{make_input(folder / "in", R"({"rate_hz":1e-300})")};
   CHECK(payload(input, 0) == "1");
   // The destructor stops the input and would hang if it did not end.
@@ -257,4 +255,105 @@ TEST_CASE("an empty folder in a loop ends, or waits for files") {
   folder.write("a", "1");
   CHECK(payload(waiting, 0) == "1");
   CHECK(payload(waiting, 1) == "1");
+}
+
+// Files are followed also where the user has no inotify instance left.
+
+namespace {
+
+constexpr int no_namespace = 77;
+
+/// Runs `body` in a process whose user may have no inotify instance; the user
+/// of this process is not touched. True if it was, or such a process cannot be
+/// had here.
+bool holds_without_inotify(const std::function<bool()>& body) {
+  const auto child = ::fork();
+  if (child == 0) {
+    if (::unshare(CLONE_NEWUSER) != 0)
+      ::_exit(no_namespace);
+    {
+      std::ofstream limit{"/proc/sys/user/max_inotify_instances"};
+      if (!(limit << "0" << std::flush))
+        ::_exit(no_namespace);
+    }
+    ::_exit(body() ? 0 : 1);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == no_namespace) {
+    WARN("no user namespace can be had here");
+    return true;
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+/// An input, and what it has said.
+struct said_input {
+  said_input(const std::string& path, const std::string& type)
+      : input(make_file_input(
+          {{"file", path, type},
+           parameters::parse("{}"),
+           [this](const std::string& line) { said += line + '\n'; }})) {}
+
+  bool gives(std::size_t n, const std::string& text) {
+    const auto found = input.sink().wait_for(n);
+    return found && found->payload == text;
+  }
+
+  std::string said;
+  running_input input;
+};
+
+} // namespace
+
+TEST_CASE("a text file is followed without inotify, and that is said") {
+  temp_folder folder{"in", "one\n"};
+  CHECK(holds_without_inotify([&] {
+    said_input x{folder / "in", "text/plain"};
+    const bool begins = x.gives(0, "one");
+    folder.append("in", "two\n");
+    const bool grows = x.gives(1, "two");
+    folder.write("new", "three\n");
+    std::rename((folder / "new").c_str(), (folder / "in").c_str());
+    return begins && grows && x.gives(2, "three")
+           && x.said.find("fs.inotify.max_user_instances") != std::string::npos;
+  }));
+}
+
+TEST_CASE("a file of another type is followed without inotify, once for each "
+          "content") {
+  temp_folder folder{"in", "one"};
+  CHECK(holds_without_inotify([&] {
+    said_input x{folder / "in", "image/png"};
+    const bool begins = x.gives(0, "one");
+    folder.write("in", "second");
+    return begins && x.gives(1, "second");
+  }));
+}
+
+TEST_CASE("a folder is followed without inotify") {
+  temp_folder folder{"a", "one"};
+  CHECK(holds_without_inotify([&] {
+    said_input x{folder / "", "application/octet-stream"};
+    const bool begins = x.gives(0, "one");
+    folder.write("b", "two");
+    return begins && x.gives(1, "two");
+  }));
+}
+
+TEST_CASE("what is still being written is not taken where changes are looked "
+          "for") {
+  temp_folder folder{"a", "half"};
+  CHECK(holds_without_inotify([&] {
+    const inotify_watch changes;
+    struct stat info {};
+    if (!changes.looks() || ::stat((folder / "a").c_str(), &info) != 0)
+      return false;
+    info.st_mtim.tv_sec = std::time(nullptr) + 3600;
+    const bool of_future = changes.may_be_unfinished(info);
+    info.st_mtim.tv_sec = std::time(nullptr) - 3600;
+    const bool of_past = changes.may_be_unfinished(info);
+    std::timespec_get(&info.st_mtim, TIME_UTC);
+    return changes.may_be_unfinished(info) && !of_future && !of_past;
+  }));
 }

@@ -32,8 +32,7 @@ frame named(const std::string& name, const std::string& payload) {
 } // namespace
 
 TEST_CASE("frames are appended to a file as lines") {
-  temp_folder folder;
-  folder.write("out", "before\n");
+  temp_folder folder{"out", "before\n"};
   auto output = make_output(folder / "out");
   output->write(named("a", "one"));
   output->write(named("b", "two\n"));
@@ -80,8 +79,7 @@ TEST_CASE("a full disk is reported with its remedy") {
 }
 
 TEST_CASE("an unusable output is refused with its path") {
-  temp_folder folder;
-  folder.write("file", "");
+  temp_folder folder{"file", ""};
   CHECK_THROWS_WITH(make_output(folder / "file/out"), Contains("/file"));
   CHECK_THROWS_WITH(make_output(folder / "file/out/"), Contains("/file/out"));
   CHECK_THROWS_WITH(make_output("relative"), Contains("absolute path"));

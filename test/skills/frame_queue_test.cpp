@@ -1,6 +1,6 @@
 #include "skills/engine/frame_queue.hpp"
 
-#include "test/skills/temp_folder.hpp"
+#include "test/skills/files.hpp"
 
 #include <catch2/catch.hpp>
 

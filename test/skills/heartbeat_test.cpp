@@ -51,10 +51,20 @@ TEST_CASE("a notify socket needs a usable name") {
   CHECK_THROWS_WITH(notify_socket{"@"}, Contains("NOTIFY_SOCKET"));
 }
 
-TEST_CASE("the heart beats with READY, WATCHDOG and now and then a status") {
+namespace {
+
+/// A skill's words to its node, and the node.
+struct heard_skill {
   temp_folder folder;
   notify_receiver node{folder / "notify"};
   notify_socket skill{folder / "notify"};
+};
+
+} // namespace
+
+TEST_CASE_METHOD(
+    heard_skill,
+    "the heart beats with READY, WATCHDOG and now and then a status") {
   liveness alive{20ms};
   safe_state untold;
   heartbeat sender{
@@ -64,10 +74,9 @@ TEST_CASE("the heart beats with READY, WATCHDOG and now and then a status") {
   CHECK(node.wait_for("STATUS") == "READY=1\nWATCHDOG=1\nSTATUS=frames=1");
 }
 
-TEST_CASE("the heart stands still while work hangs, and makes up for it") {
-  temp_folder folder;
-  notify_receiver node{folder / "notify"};
-  notify_socket skill{folder / "notify"};
+TEST_CASE_METHOD(
+    heard_skill,
+    "the heart stands still while work hangs, and makes up for it") {
   liveness alive{20ms};
   // Work that began an hour ago hangs, whatever the machine's speed.
   alive.work_begins(liveness::clock::now() - 1h);
@@ -86,10 +95,7 @@ TEST_CASE("the heart stands still while work hangs, and makes up for it") {
 namespace {
 
 /// A heart that hardly beats, with a node that hears it.
-struct quiet_heart {
-  temp_folder folder;
-  notify_receiver node{folder / "notify"};
-  notify_socket skill{folder / "notify"};
+struct quiet_heart : heard_skill {
   liveness alive{1h};
   safe_state safety;
   heartbeat sender{skill, alive, safety, {[] { return ""; }, nullptr}};
@@ -138,11 +144,10 @@ TEST_CASE_METHOD(quiet_heart, "a skill that changes its mind a thousand times "
     CHECK(node.wait_for("ROSCELL_SAFE=1"));
 }
 
-TEST_CASE("every heartbeat repeats the word on safety, for a node that was "
-          "restarted") {
-  temp_folder folder;
-  notify_receiver node{folder / "notify"};
-  notify_socket skill{folder / "notify"};
+TEST_CASE_METHOD(
+    heard_skill,
+    "every heartbeat repeats the word on safety, for a node that was "
+    "restarted") {
   liveness alive{20ms};
   safe_state safety;
   safety.set(false);
@@ -151,10 +156,7 @@ TEST_CASE("every heartbeat repeats the word on safety, for a node that was "
     CHECK(node.wait_for("WATCHDOG") == "READY=1\nWATCHDOG=1\nROSCELL_SAFE=0");
 }
 
-TEST_CASE("a word on safety is told while work hangs") {
-  temp_folder folder;
-  notify_receiver node{folder / "notify"};
-  notify_socket skill{folder / "notify"};
+TEST_CASE_METHOD(heard_skill, "a word on safety is told while work hangs") {
   liveness alive{20ms};
   alive.work_begins(liveness::clock::now() - 1h);
   safe_state safety;
@@ -163,11 +165,9 @@ TEST_CASE("a word on safety is told while work hangs") {
   CHECK(node.receive() == "ROSCELL_SAFE=0");
 }
 
-TEST_CASE(
+TEST_CASE_METHOD(
+    heard_skill,
     "a heart that tells of streams sends a heartbeat every second or faster") {
-  temp_folder folder;
-  notify_receiver node{folder / "notify"};
-  notify_socket skill{folder / "notify"};
   liveness alive{1h};
   safe_state untold;
   const auto begin = liveness::clock::now();

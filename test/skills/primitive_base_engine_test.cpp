@@ -401,21 +401,31 @@ TEST_CASE_METHOD(fixture, "a stop before the start ends the skill cleanly") {
   CHECK(log.text == "open release close");
 }
 
-TEST_CASE_METHOD(fixture, "an engine tells its node of its start and its end") {
+namespace {
+
+/// A node that hears what the skill tells it.
+struct notified_node : fixture {
   temp_folder folder;
   notify_receiver node{folder / "notify"};
-  env.notify_socket = folder / "notify";
+
+  notified_node() {
+    env.notify_socket = folder / "notify";
+  }
+};
+
+} // namespace
+
+TEST_CASE_METHOD(notified_node,
+                 "an engine tells its node of its start and its end") {
   CHECK(run() == exit_code::done);
   CHECK(node.receive() == "READY=1");
   CHECK_THAT(node.receive().value_or(""),
              Contains("STOPPING=1\nSTATUS=frames=3 "));
 }
 
-TEST_CASE_METHOD(fixture, "a node is told of the frames of each stream, and in "
-                          "one short line why nothing comes of them") {
-  temp_folder folder;
-  notify_receiver node{folder / "notify"};
-  env.notify_socket = folder / "notify";
+TEST_CASE_METHOD(notified_node,
+                 "a node is told of the frames of each stream, and in "
+                 "one short line why nothing comes of them") {
   env.inputs[0].endpoint = "12";
   CHECK(run({{"times", 0}, {"excuse", "a\nb" + std::string(5000, 'x')}})
         == exit_code::done);
@@ -426,21 +436,15 @@ TEST_CASE_METHOD(fixture, "a node is told of the frames of each stream, and in "
   CHECK(last.size() < 1000);
 }
 
-TEST_CASE_METHOD(fixture, "a skill that cannot start is never ready") {
-  temp_folder folder;
-  notify_receiver node{folder / "notify"};
-  env.notify_socket = folder / "notify";
+TEST_CASE_METHOD(notified_node, "a skill that cannot start is never ready") {
   env.inputs[0].endpoint = "closed";
   CHECK(run() == exit_code::cannot_start);
   CHECK_FALSE(node.receive_now());
 }
 
-TEST_CASE_METHOD(fixture,
+TEST_CASE_METHOD(notified_node,
                  "an executor says whether it is stop-safe, and hears that "
                  "somebody waits for that") {
-  temp_folder folder;
-  notify_receiver node{folder / "notify"};
-  env.notify_socket = folder / "notify";
   env.model = "careful";
   env.inputs[0] = {"live", "0", "n"};
   primitive_base_engine engine{
@@ -463,10 +467,8 @@ TEST_CASE_METHOD(fixture, "an executor that does not care goes on when it is "
   CHECK(log.text == "open 1 2 3 release close");
 }
 
-TEST_CASE_METHOD(fixture, "streams are measured where the node wants to know") {
-  temp_folder folder;
-  notify_receiver node{folder / "notify"};
-  env.notify_socket = folder / "notify";
+TEST_CASE_METHOD(notified_node,
+                 "streams are measured where the node wants to know") {
   env.health = true;
   env.inputs = {{"live", "3", "n"}, {"live", "0", "n"}};
   primitive_base_engine engine{parts, env, [](const std::string&) {}};

@@ -5,7 +5,7 @@
 #include "skills/engine/life/unique_fd.hpp"
 
 #include "test/parameters_of.hpp"
-#include "test/skills/temp_folder.hpp"
+#include "test/skills/files.hpp"
 
 #include <condition_variable>
 #include <memory>

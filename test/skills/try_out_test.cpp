@@ -1,7 +1,7 @@
 #include "roscell/skill/try_out.hpp"
 
 #include "roscell/skill/errors.hpp"
-#include "test/skills/temp_folder.hpp"
+#include "test/skills/files.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -33,8 +33,7 @@ public:
 } // namespace
 
 TEST_CASE("an executor is tried with the lines of a file") {
-  temp_folder folder;
-  folder.write("in", "first\nsecond");
+  temp_folder folder{"in", "first\nsecond"};
   numbering subject;
   const auto results = try_out(subject, folder / "in", "text/plain");
   REQUIRE(results.size() == 2);
@@ -57,8 +56,7 @@ TEST_CASE("an executor is tried with the files of a folder") {
 }
 
 TEST_CASE("what goes wrong in a trial reaches the test") {
-  temp_folder folder;
-  folder.write("in", "bad\n");
+  temp_folder folder{"in", "bad\n"};
   numbering subject;
   CHECK_THROWS_WITH(try_out(subject, folder / "in", "text/plain"),
                     "a bad frame");

@@ -37,8 +37,7 @@ projection_matrix:
 )";
 
 std::string error_in(const std::string& content) {
-  temp_folder folder;
-  folder.write("camera.yaml", content);
+  temp_folder folder{"camera.yaml", content};
   try {
     read_calibration(folder / "camera.yaml");
   } catch (const engine::start_error& e) {
@@ -64,8 +63,7 @@ std::string replaced(const std::string& part, const std::string& by) {
 } // namespace
 
 TEST_CASE("a calibration is read as ROS writes it") {
-  temp_folder folder;
-  folder.write("camera.yaml", ros_yaml);
+  temp_folder folder{"camera.yaml", ros_yaml};
   auto info = read_calibration(folder / "camera.yaml");
   CHECK(info.width == 640);
   CHECK(info.height == 480);

@@ -1,7 +1,7 @@
 #include "tools/compare_poses/comparison.hpp"
 #include "tools/compare_poses/table.hpp"
 
-#include "test/skills/temp_folder.hpp"
+#include "test/skills/files.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -87,11 +87,10 @@ TEST_CASE("truth and estimates are read from their files") {
 }
 
 TEST_CASE("frames tell how often poses come, and how late") {
-  temp_folder folder;
-  folder.write("poses", R"({"stamp": 10.0, "age_ms": 7, "tags": []}
+  temp_folder folder{"poses", R"({"stamp": 10.0, "age_ms": 7, "tags": []}
 {"stamp": 10.1, "age_ms": 9, "tags": []}
 {"stamp": 10.4, "age_ms": 90, "tags": []}
-)");
+)"};
   auto timing = read_estimates(folder / "poses", 0).timing;
   CHECK(timing.rate_hz.value() == Approx(5));
   CHECK(timing.latency_ms.value() == Approx(9));

@@ -11,7 +11,7 @@
 
 #include "test/parameters_of.hpp"
 #include "test/places.hpp"
-#include "test/skills/temp_folder.hpp"
+#include "test/skills/files.hpp"
 
 #include <map>
 #include <memory>

@@ -117,9 +117,8 @@ TEST_CASE("a camera that is not calibrated has intrinsics of zero") {
 }
 
 TEST_CASE("pictures of another size than the calibration are said once") {
-  temp_folder folder;
-  folder.write("camera.json", R"({"image_width": 8, "image_height": 6,
-    "camera_matrix": {"data": [5, 0, 4, 0, 5, 3, 0, 0, 1]}})");
+  temp_folder folder{"camera.json", R"({"image_width": 8, "image_height": 6,
+    "camera_matrix": {"data": [5, 0, 4, 0, 5, 3, 0, 0, 1]}})"};
   bench b{
       {picture_type}, {info_type}, {{"camera_file", folder / "camera.json"}}};
   b.show(0, vision::encode_png(small_picture()));

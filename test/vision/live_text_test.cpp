@@ -1,4 +1,4 @@
-#include "test/skills/temp_folder.hpp"
+#include "test/skills/files.hpp"
 #include "tools/compare_poses/live_text.hpp"
 
 #include <catch2/catch.hpp>

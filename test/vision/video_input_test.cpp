@@ -174,8 +174,7 @@ TEST_CASE("a real film is read by OpenCV") {
 }
 
 TEST_CASE("OpenCV opens no film that is none") {
-  temp_folder folder;
-  folder.write("film.avi", "no film");
+  temp_folder folder{"film.avi", "no film"};
   CHECK(make_capture(folder / "film.avi") == nullptr);
   CHECK(make_capture(folder / "none.avi") == nullptr);
   CHECK(make_capture("/dev/video77") == nullptr);

@@ -16,31 +16,17 @@ std::string state_of_task(paper_cell& cell, const std::string& task) {
   return reply.at("tasks")[0].at("state").get<std::string>();
 }
 
-/// An instance of the skill, as a node or a record has it.
+/// An instance, as a node or a record has it.
 instance_spec some_spec(const std::string& id, const std::string& task) {
-  instance_spec result;
-  result.instance = id;
-  result.task = task;
-  result.step = id;
-  result.operation = "echo";
-  result.model = "plain";
-  result.deployment = "cpu-1";
-  result.resources = {1, 100, 10};
-  return result;
+  return echo_instance(id, task, id);
 }
 
 task_record some_record(const std::string& task, task_state state,
                         const std::vector<std::string>& nodes) {
-  task_record result;
-  result.task = task;
-  result.request = "{}";
-  result.accepted = R"({"type":"task_accepted"})";
-  result.state = state;
-  for (const auto& node : nodes) {
-    result.specs.push_back(some_spec(task + "-on-" + node, task));
-    result.nodes.push_back(node);
-  }
-  return result;
+  std::vector<instance_spec> specs;
+  for (const auto& node : nodes)
+    specs.push_back(some_spec(task + "-on-" + node, task));
+  return kept_record(specs, nodes, state);
 }
 
 std::string verdict_of(const node_registered& reply, const std::string& id) {

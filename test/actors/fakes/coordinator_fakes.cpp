@@ -533,6 +533,33 @@ json termination(const std::string& task, bool force) {
   return result;
 }
 
+instance_spec echo_instance(const std::string& instance,
+                            const std::string& task, const std::string& step) {
+  instance_spec result;
+  result.instance = instance;
+  result.task = task;
+  result.step = step;
+  result.operation = "echo";
+  result.model = "plain";
+  result.deployment = "cpu-1";
+  result.parameters = "{}";
+  result.resources = {1, 100, 10};
+  return result;
+}
+
+task_record kept_record(const std::vector<instance_spec>& specs,
+                        const std::vector<std::string>& nodes,
+                        task_state state) {
+  task_record result;
+  result.task = specs.at(0).task;
+  result.request = "{}";
+  result.accepted = R"({"type":"task_accepted"})";
+  result.state = state;
+  result.specs = specs;
+  result.nodes = nodes;
+  return result;
+}
+
 instance_row row_of(const instance_spec& spec, const std::string& node,
                     instance_state state) {
   instance_row row;

@@ -162,7 +162,16 @@ json echo_task(const std::string& task, const std::vector<json>& steps);
 
 json termination(const std::string& task, bool force = false);
 
+instance_spec echo_instance(const std::string& instance,
+                            const std::string& task = "t",
+                            const std::string& step = "s0");
+
 instance_row row_of(const instance_spec& spec, const std::string& node,
                     instance_state state = instance_state::running);
+
+/// The record of the task of these instances, each on its node.
+task_record kept_record(const std::vector<instance_spec>& specs,
+                        const std::vector<std::string>& nodes,
+                        task_state state = task_state::running);
 
 } // namespace roscell::test

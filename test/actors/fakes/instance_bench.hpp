@@ -104,4 +104,11 @@ struct instance_bench : virtual_time {
   skill_instance_actor instance;
 };
 
+/// One whose program is ready.
+struct ready_bench : instance_bench {
+  ready_bench() {
+    start_ready();
+  }
+};
+
 } // namespace roscell::test

@@ -12,27 +12,6 @@ namespace roscell::test {
 
 namespace fs = std::filesystem;
 
-scratch_folder::scratch_folder() {
-  std::string name = fs::temp_directory_path() / "roscell-test-XXXXXX";
-  REQUIRE(::mkdtemp(name.data()) != nullptr);
-  path_ = name;
-}
-
-scratch_folder::~scratch_folder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
-fs::path scratch_folder::write(const fs::path& name, const std::string& text,
-                               bool executable) const {
-  const auto file = path_ / name;
-  fs::create_directories(file.parent_path());
-  std::ofstream{file} << text;
-  if (executable)
-    fs::permissions(file, fs::perms::owner_all);
-  return file;
-}
-
 std::string echo_descriptor() {
   return R"({
     "operation": "echo", "engine": "primitive", "entry_point": ["bin/echo"],

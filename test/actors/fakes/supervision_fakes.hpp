@@ -2,6 +2,7 @@
 
 #include "actors/instances/skills/skill_catalogue.hpp"
 #include "test/fixture.hpp"
+#include "test/temp_folder.hpp"
 
 #include <caf/typed_event_based_actor.hpp>
 #include <caf/typed_response_promise.hpp>
@@ -14,27 +15,6 @@
 /// What the actors of supervision talk to, as far as their tests need it.
 namespace roscell::test {
 
-/// A folder that is gone when the test is over.
-class scratch_folder {
-public:
-  scratch_folder();
-  ~scratch_folder();
-  scratch_folder(const scratch_folder&) = delete;
-  scratch_folder& operator=(const scratch_folder&) = delete;
-
-  const std::filesystem::path& path() const {
-    return path_;
-  }
-
-  /// Writes a file, with its folders.
-  std::filesystem::path write(const std::filesystem::path& name,
-                              const std::string& text,
-                              bool executable = false) const;
-
-private:
-  std::filesystem::path path_;
-};
-
 /// The descriptor of a skill with model "plain" and deployment "cpu".
 std::string echo_descriptor();
 
@@ -42,7 +22,7 @@ std::string echo_descriptor();
 struct echo_catalogue {
   echo_catalogue();
 
-  scratch_folder folder;
+  temp_folder folder;
   shared_skill_catalogue skills;
   std::string hash;
 };

@@ -46,35 +46,55 @@ struct supervisor_bench : virtual_time {
     settle();
   }
 
-  auto deploy(const std::string& instance, const std::string& task = "t") {
-    auto result = ask<instance_deployed>(
-        supervisor,
-        instance_deployment{echo_spec(catalogue.hash, instance, task)});
+  template <class Message>
+  void notify(const Message& message) {
+    caf::anon_send(supervisor, message);
+    settle();
+  }
+
+  template <class Reply, class Request>
+  auto answer_to(const Request& request) {
+    auto result = ask<Reply>(supervisor, request);
     settle();
     return result;
+  }
+
+  auto deploy(const std::string& instance, const std::string& task = "t") {
+    return answer_to<instance_deployed>(
+        instance_deployment{echo_spec(catalogue.hash, instance, task)});
   }
 
   auto remove(const std::string& task) {
-    auto result = ask<instances_removed>(supervisor, instance_removal{task});
-    settle();
-    return result;
+    return answer_to<instances_removed>(instance_removal{task});
   }
 
   void say(const std::string& instance, const std::string& status = {}) {
-    caf::anon_send(supervisor, instance_notified{instance, true, true, false,
-                                                 status, false});
-    settle();
+    notify(instance_notified{instance, true, true, false, status, false});
+  }
+
+  /// Deploys an instance, which says that it is ready.
+  void run(const std::string& instance, const std::string& task = "t") {
+    deploy(instance, task);
+    say(instance);
   }
 
   void exit_of(const std::string& instance, const std::string& container,
                int code) {
-    caf::anon_send(supervisor, container_exited{instance, container, code});
-    settle();
+    notify(container_exited{instance, container, code});
+  }
+
+  /// An instance that an earlier run of the node has left in "c0".
+  instance_row left_running(const std::string& instance) {
+    instance_row result;
+    result.spec = echo_spec(catalogue.hash, instance);
+    result.state = instance_state::running;
+    result.container = "c0";
+    runtime->adoption = {true, "c0", -1};
+    return result;
   }
 
   std::vector<instance_row> rows(const instance_query& query = {}) {
-    auto result = ask<instance_description>(supervisor, query);
-    settle();
+    auto result = answer_to<instance_description>(query);
     REQUIRE(*result);
     return **result ? (*result)->value().instances
                     : std::vector<instance_row>{};
@@ -104,6 +124,12 @@ struct supervisor_bench : virtual_time {
   instance_listener_actor listener;
 };
 
+struct started_bench : supervisor_bench {
+  started_bench() {
+    start();
+  }
+};
+
 /// The error of an answer that must be one.
 template <class T>
 failure refusal(const T& answer) {
@@ -122,8 +148,7 @@ auto reply(const T& answer) {
 } // namespace
 
 TEST_CASE("a deployment is answered once the instance is ready") {
-  supervisor_bench b;
-  b.start();
+  started_bench b;
   const auto answer = b.deploy("i");
   CHECK_FALSE(*answer);
   b.say("i");
@@ -134,8 +159,7 @@ TEST_CASE("a deployment is answered once the instance is ready") {
 }
 
 TEST_CASE("the same deployment again joins the wait and starts nothing") {
-  supervisor_bench b;
-  b.start();
+  started_bench b;
   const auto first = b.deploy("i");
   const auto second = b.deploy("i");
   CHECK_FALSE(*second);
@@ -146,17 +170,14 @@ TEST_CASE("the same deployment again joins the wait and starts nothing") {
 }
 
 TEST_CASE("an instance id with another spec is a conflict") {
-  supervisor_bench b;
-  b.start();
-  b.deploy("i");
-  b.say("i");
+  started_bench b;
+  b.run("i");
   CHECK(refusal(b.deploy("i", "other")).code == error_code::conflict);
   CHECK(b.row("i").spec.task == "t");
 }
 
 TEST_CASE("what the node cannot run is refused by name") {
-  supervisor_bench b;
-  b.start();
+  started_bench b;
   auto spec = echo_spec(b.catalogue.hash, "i");
   auto expected = error_code::internal;
   SECTION("a skill") {
@@ -175,17 +196,14 @@ TEST_CASE("what the node cannot run is refused by name") {
     spec.instance = GENERATE("../i", "", ".", "a/b", "i\n");
     expected = error_code::schema_violation;
   }
-  const auto answer =
-      b.ask<instance_deployed>(b.supervisor, instance_deployment{spec});
-  b.settle();
+  const auto answer = b.answer_to<instance_deployed>(instance_deployment{spec});
   CHECK(refusal(answer).code == expected);
   CHECK(b.rows().empty());
   CHECK(b.store->records.empty());
 }
 
 TEST_CASE("a failed start is told with node, exit code and last lines") {
-  supervisor_bench b;
-  b.start();
+  started_bench b;
   const auto answer = b.deploy("i");
   b.exit_of("i", "c1", 127);
   const auto why = refusal(answer);
@@ -200,8 +218,7 @@ TEST_CASE("a failed start is told with node, exit code and last lines") {
 }
 
 TEST_CASE("a failed instance is started anew by the same deployment") {
-  supervisor_bench b;
-  b.start();
+  started_bench b;
   b.deploy("i");
   b.exit_of("i", "c1", 1);
   CHECK(b.row("i").state == instance_state::failed);
@@ -212,23 +229,18 @@ TEST_CASE("a failed instance is started anew by the same deployment") {
 }
 
 TEST_CASE("an instance that has finished is not run twice") {
-  supervisor_bench b;
-  b.start();
-  b.deploy("i");
-  b.say("i");
+  started_bench b;
+  b.run("i");
   b.exit_of("i", "c1", 0);
   CHECK(reply(b.deploy("i")).instance.state == instance_state::stopped);
   CHECK(b.runtime->started.size() == 1);
 }
 
 TEST_CASE("removing a task leaves nothing of its instances") {
-  supervisor_bench b;
-  b.start();
-  b.deploy("a", "t");
-  b.deploy("b", "t");
-  b.deploy("c", "u");
-  for (const auto* x : {"a", "b", "c"})
-    b.say(x);
+  started_bench b;
+  b.run("a", "t");
+  b.run("b", "t");
+  b.run("c", "u");
   CHECK(reply(b.remove("t")).instances == words{"a", "b"});
   CHECK(b.rows().size() == 1);
   CHECK(b.runtime->stopped.size() == 2);
@@ -238,28 +250,22 @@ TEST_CASE("removing a task leaves nothing of its instances") {
 }
 
 TEST_CASE("removing one instance leaves the others of its task") {
-  supervisor_bench b;
-  b.start();
-  b.deploy("a", "t");
-  b.deploy("b", "t");
-  b.say("a");
-  b.say("b");
+  started_bench b;
+  b.run("a", "t");
+  b.run("b", "t");
   const auto answer =
-      b.ask<instances_removed>(b.supervisor, instance_removal{"t", "a"});
-  b.settle();
+      b.answer_to<instances_removed>(instance_removal{"t", "a"});
   CHECK(reply(answer).instances == words{"a"});
   CHECK(b.row("b").state == instance_state::running);
 }
 
 TEST_CASE("removing an unknown task removes nothing and is no error") {
-  supervisor_bench b;
-  b.start();
+  started_bench b;
   CHECK(reply(b.remove("nothing")).instances.empty());
 }
 
 TEST_CASE("a removal during the start ends it and refuses the deployment") {
-  supervisor_bench b;
-  b.start();
+  started_bench b;
   b.runtime->silent = true;
   const auto deployment = b.deploy("i");
   const auto removal = b.remove("t");
@@ -269,10 +275,8 @@ TEST_CASE("a removal during the start ends it and refuses the deployment") {
 }
 
 TEST_CASE("removals of one task join, deployments wait until they are over") {
-  supervisor_bench b;
-  b.start();
-  b.deploy("i");
-  b.say("i");
+  started_bench b;
+  b.run("i");
   b.runtime->stops_never = true;
   const auto first = b.remove("t");
   const auto second = b.remove("t");
@@ -287,10 +291,8 @@ TEST_CASE("removals of one task join, deployments wait until they are over") {
 }
 
 TEST_CASE("a removal that fails says so and can be repeated") {
-  supervisor_bench b;
-  b.start();
-  b.deploy("i");
-  b.say("i");
+  started_bench b;
+  b.run("i");
   b.runtime->remove_error = fail(error_code::engine_failed, "disk broken");
   CHECK(refusal(b.remove("t")).message == "disk broken");
   CHECK(b.row("i").state == instance_state::stopped);
@@ -299,8 +301,7 @@ TEST_CASE("a removal that fails says so and can be repeated") {
 }
 
 TEST_CASE("a killed skill instance loses neither container nor answer") {
-  supervisor_bench b;
-  b.start();
+  started_bench b;
   const auto answer = b.deploy("i");
   b.runtime->adoption = {true, "c1", -1};
   SECTION("while it starts") {
@@ -321,10 +322,8 @@ TEST_CASE("a killed skill instance loses neither container nor answer") {
 }
 
 TEST_CASE("a killed skill instance does not lose a removal either") {
-  supervisor_bench b;
-  b.start();
-  b.deploy("i");
-  b.say("i");
+  started_bench b;
+  b.run("i");
   b.runtime->stops_never = true;
   const auto removal = b.remove("t");
   b.runtime->stops_never = false;
@@ -334,8 +333,7 @@ TEST_CASE("a killed skill instance does not lose a removal either") {
 }
 
 TEST_CASE("an actor that dies again and again takes its program along") {
-  supervisor_bench b;
-  b.start();
+  started_bench b;
   const auto answer = b.deploy("i");
   b.runtime->adoption = {true, "c1", -1};
   for (int i = 0; i < 6; ++i)
@@ -347,10 +345,8 @@ TEST_CASE("an actor that dies again and again takes its program along") {
 }
 
 TEST_CASE("a runtime that dies is spawned anew and adopts what runs") {
-  supervisor_bench b;
-  b.start();
-  b.deploy("i");
-  b.say("i");
+  started_bench b;
+  b.run("i");
   b.runtime->adoption = {true, "c1", -1};
   caf::anon_send_exit(b.runtimes.at(0), caf::exit_reason::kill);
   b.settle();
@@ -362,15 +358,11 @@ TEST_CASE("a runtime that dies is spawned anew and adopts what runs") {
 
 TEST_CASE("instances of an earlier run are adopted at the start") {
   supervisor_bench b;
-  instance_row running;
-  running.spec = echo_spec(b.catalogue.hash, "r", "t");
-  running.state = instance_state::running;
-  running.container = "c0";
-  instance_row failed = running;
+  const auto running = b.left_running("r");
+  auto failed = running;
   failed.spec.instance = "f";
   failed.state = instance_state::failed;
   b.config.restored = {running, failed};
-  b.runtime->adoption = {true, "c0", -1};
   b.start();
   CHECK(b.runtime->adopted.size() == 1);
   CHECK(b.row("r").state == instance_state::running);
@@ -384,15 +376,11 @@ namespace {
 /// where it knew a discovery server.
 struct moved_bench : supervisor_bench {
   moved_bench() {
-    instance_row moved;
-    moved.spec = echo_spec(catalogue.hash, "moved", "t");
+    auto moved = left_running("moved");
     moved.spec.environment = {{"ROS_DISCOVERY_SERVER", "10.0.0.5:11811"}};
-    moved.state = instance_state::running;
-    moved.container = "c0";
     config.restored = {moved};
     config.address = "10.0.0.9";
     config.started_at = {{"moved", "10.0.0.5"}};
-    runtime->adoption = {true, "c0", -1};
   }
 };
 
@@ -406,13 +394,10 @@ TEST_CASE("programs of another address are started again at the present one") {
   b.config.started_at["stayed"] = "10.0.0.9";
   b.start();
   // Where it is to find the cell is not known yet, also if it is wanted.
-  caf::anon_send(b.supervisor, contact_proven{1, {"moved", "stayed"}});
-  b.settle();
+  b.notify(contact_proven{1, {"moved", "stayed"}});
   CHECK(b.runtime->stopped.empty());
   for (int i = 0; i < 2; ++i) {
-    caf::anon_send(b.supervisor, use_environment{{{"ROS_DISCOVERY_SERVER",
-                                                   "10.0.0.9:11811"}}});
-    b.settle();
+    b.notify(use_environment{{{"ROS_DISCOVERY_SERVER", "10.0.0.9:11811"}}});
     b.advance(1ms);
   }
   REQUIRE(b.runtime->stopped.size() == 1);
@@ -438,8 +423,7 @@ TEST_CASE("programs of a coordinator at another address are told its server "
         return true;
       };
   b.start();
-  caf::anon_send(b.supervisor, contact_proven{1, {"moved"}});
-  b.settle();
+  b.notify(contact_proven{1, {"moved"}});
   CHECK(reported == words{"10.0.0.9:11812"});
   CHECK(b.row("moved").state == instance_state::running);
   CHECK(b.runtime->stopped.empty());
@@ -447,23 +431,16 @@ TEST_CASE("programs of a coordinator at another address are told its server "
 
 TEST_CASE("programs that know no discovery server do not mind an address") {
   supervisor_bench b;
-  instance_row row;
-  row.spec = echo_spec(b.catalogue.hash, "r", "t");
-  row.state = instance_state::running;
-  row.container = "c0";
-  b.config.restored = {row};
+  b.config.restored = {b.left_running("r")};
   b.config.address = "10.0.0.9";
   b.config.started_at = {{"r", "10.0.0.5"}};
-  b.runtime->adoption = {true, "c0", -1};
   b.start();
-  caf::anon_send(b.supervisor, contact_proven{1, {"r"}});
-  b.settle();
+  b.notify(contact_proven{1, {"r"}});
   CHECK(b.runtime->stopped.empty());
 }
 
 TEST_CASE("the listener hears of each state once") {
-  supervisor_bench b;
-  b.start();
+  started_bench b;
   b.deploy("i");
   b.say("i", "loading");
   b.say("i", "12 frames/s");
@@ -478,20 +455,17 @@ TEST_CASE("the listener hears of each state once") {
 }
 
 TEST_CASE("the listener hears once that an input is silent, and of its end") {
-  supervisor_bench b;
-  b.start();
+  started_bench b;
   auto spec = echo_spec(b.catalogue.hash, "i", "t");
   spec.input = {{"ros2", "/a", "std_msgs/msg/String"}};
-  b.ask<instance_deployed>(b.supervisor, instance_deployment{spec});
-  b.settle();
+  b.answer_to<instance_deployed>(instance_deployment{spec});
   instance_notified said{"i", true, true, false, "frames=0", false};
   said.frames.resize(1);
   said.frames[0].end = "input:0";
   const auto say = [&](std::chrono::seconds pause) {
     for (auto passed = 0s; passed < pause; passed += 4s) {
       b.advance(4s);
-      caf::anon_send(b.supervisor, said);
-      b.settle();
+      b.notify(said);
     }
   };
   say(4s);
@@ -507,15 +481,13 @@ TEST_CASE("the listener hears once that an input is silent, and of its end") {
 }
 
 TEST_CASE("the log of an instance is the runtime's, of others there is none") {
-  supervisor_bench b;
-  b.start();
+  started_bench b;
   b.deploy("i");
   log_query query;
   query.instance = "i";
-  const auto known = b.ask<log_excerpt>(b.supervisor, query);
+  const auto known = b.answer_to<log_excerpt>(query);
   query.instance = "../../etc";
-  const auto unknown = b.ask<log_excerpt>(b.supervisor, query);
-  b.settle();
+  const auto unknown = b.answer_to<log_excerpt>(query);
   CHECK(reply(known).text == "first line\nlast line\n");
   CHECK(refusal(unknown).code == error_code::unknown_task);
 }
@@ -546,9 +518,7 @@ struct history_bench : supervisor_bench {
   }
 
   std::string text_of(const log_query& query) {
-    const auto answer = ask<log_excerpt>(supervisor, query);
-    settle();
-    return reply(answer).text;
+    return reply(answer_to<log_excerpt>(query)).text;
   }
 
   std::vector<log_query> asked;
@@ -574,24 +544,20 @@ TEST_CASE("a kept log is read where there is no other, or it is asked for") {
   CHECK(b.asked.size() == 3);
   query.instance = "i";
   b.runtime->log_error = fail(error_code::conflict, "too many follow it");
-  const auto refused = b.ask<log_excerpt>(b.supervisor, query);
-  b.settle();
+  const auto refused = b.answer_to<log_excerpt>(query);
   CHECK(refusal(refused).code == error_code::conflict);
 }
 
 TEST_CASE("kept logs are those of the node by its present name") {
   history_bench b;
-  const auto answer = b.ask<kept_logs>(b.supervisor, kept_logs_query{"i", ""});
-  b.settle();
+  const auto answer = b.answer_to<kept_logs>(kept_logs_query{"i", ""});
   REQUIRE(reply(answer).logs.size() == 1);
   CHECK(reply(answer).logs.front().node == "n");
 }
 
 TEST_CASE("the log of what is removed is kept with its end") {
-  supervisor_bench b;
-  b.start();
-  b.deploy("i");
-  b.say("i");
+  started_bench b;
+  b.run("i");
   b.remove("t");
   REQUIRE(b.runtime->removed.size() == 1);
   REQUIRE(b.runtime->removed[0].about.size() == 1);
@@ -607,22 +573,19 @@ TEST_CASE("the log of what is removed is kept with its end") {
 }
 
 TEST_CASE("queries choose by task and by instance") {
-  supervisor_bench b;
-  b.start();
+  started_bench b;
   b.deploy("a", "t");
   b.deploy("b", "u");
   CHECK(b.rows().size() == 2);
   CHECK(b.rows({"", "u"}).at(0).spec.instance == "b");
   CHECK(b.rows({"", "none"}).empty());
   const auto unknown =
-      b.ask<instance_description>(b.supervisor, instance_query{"z", ""});
-  b.settle();
+      b.answer_to<instance_description>(instance_query{"z", ""});
   CHECK(refusal(unknown).code == error_code::unknown_task);
 }
 
 TEST_CASE("live instances are bounded") {
-  supervisor_bench b;
-  b.start();
+  started_bench b;
   const auto live = limits::instance::most;
   for (size_t i = 0; i < live; ++i)
     b.deploy("i" + std::to_string(i));
@@ -630,8 +593,7 @@ TEST_CASE("live instances are bounded") {
 }
 
 TEST_CASE("what has ended stays known until the coordinator keeps it") {
-  supervisor_bench b;
-  b.start();
+  started_bench b;
   const auto kept = limits::instance::most_ended;
   std::vector<std::string> ended;
   for (size_t i = 0; i < kept + 8; ++i) {
@@ -643,8 +605,7 @@ TEST_CASE("what has ended stays known until the coordinator keeps it") {
   CHECK(b.runtime->removed.size() == 8);
   CHECK(b.rows().size() == kept + 8);
   CHECK(b.store->states("i0").back() == "failed");
-  caf::anon_send(b.supervisor, ends_acknowledged{ended});
-  b.settle();
+  b.notify(ends_acknowledged{ended});
   CHECK(b.rows().size() == kept);
   CHECK(b.store->states("i0").back() == "-");
 }
@@ -681,19 +642,15 @@ TEST_CASE("what nobody acknowledges is bounded, and so are its bytes") {
 }
 
 TEST_CASE("an engine's problem is told of every live instance, and its end") {
-  supervisor_bench b;
-  b.start();
-  b.deploy("i");
-  b.say("i");
-  caf::anon_send(b.supervisor, runtime_problem_changed{"the engine is away"});
-  b.settle();
+  started_bench b;
+  b.run("i");
+  b.notify(runtime_problem_changed{"the engine is away"});
   CHECK(b.row("i").problem == "the engine is away");
   CHECK(b.row("i").state == instance_state::running);
   CHECK(b.reported->last().problem == "the engine is away");
   b.deploy("j");
   CHECK(b.row("j").problem == "the engine is away");
-  caf::anon_send(b.supervisor, runtime_problem_changed{});
-  b.settle();
+  b.notify(runtime_problem_changed{});
   CHECK(b.row("i").problem.empty());
   CHECK(b.row("j").problem.empty());
 }

@@ -12,7 +12,7 @@ namespace {
 
 /// A data directory and what a node finds in it.
 struct data_fixture {
-  own_folder folder;
+  temp_folder folder;
   node_config config;
 
   data_fixture() {

@@ -13,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 struct history_fixture {
-  own_folder work;
+  temp_folder work;
   virtual_time time;
   std::shared_ptr<history_folder> folder = std::make_shared<history_folder>(
       work.path() / "history",

@@ -1,8 +1,8 @@
 #include "actors/node/resource_probe.hpp"
 
-#include "test/actors/edge/host/host_probe_fixture.hpp"
 #include "test/fixture.hpp"
 #include "test/places.hpp"
+#include "test/temp_folder.hpp"
 
 #include <unistd.h>
 
@@ -15,7 +15,7 @@ namespace {
 /// A probe of a host with four cores and a load average of 1.5.
 struct probe_fixture {
   virtual_time time;
-  fixture_root root;
+  temp_folder root;
   resource_probe_actor probe;
 
   probe_fixture() {

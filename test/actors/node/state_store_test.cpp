@@ -21,7 +21,7 @@ using records = std::vector<sqlite_store::record>;
 /// disk is not.
 struct store_on_disk {
   virtual_time time;
-  scratch_folder folder;
+  temp_folder folder;
   std::shared_ptr<sqlite_store> database;
   state_store_actor actor;
 

@@ -45,25 +45,43 @@ json two_nodes() {
       {"id": "s1", "operation": "see", "model": "yolo"}]}})");
 }
 
-std::variant<task_plan, failure> plan(const json& document) {
+plan_document read(const json& document) {
+  return std::get<plan_document>(decode<plan_document>(document));
+}
+
+/// A plan that there must be, or the reason why there is none.
+template <class T>
+T must_be(const std::variant<task_plan, failure>& result) {
+  REQUIRE(std::holds_alternative<T>(result));
+  return std::get<T>(result);
+}
+
+std::variant<task_plan, failure> outcome_of(const json& document) {
   REQUIRE_FALSE(validate_document("plan_document", document));
-  return allocate_offline(
-      std::get<plan_document>(decode<plan_document>(document)));
+  return allocate_offline(read(document));
+}
+
+task_plan plan(const json& document) {
+  return must_be<task_plan>(outcome_of(document));
 }
 
 failure refusal(const json& document) {
-  const auto result = plan(document);
-  REQUIRE(std::holds_alternative<failure>(result));
-  return std::get<failure>(result);
+  return must_be<failure>(outcome_of(document));
+}
+
+/// The first step, on nodes with any labels.
+resolved_step step_anywhere(const plan_document& document) {
+  resolved_step result;
+  result.step = document.request.pipeline[0];
+  result.step.labels.clear();
+  return result;
 }
 
 } // namespace
 
 TEST_CASE("A plan on paper has the numbers of the paper's equations",
           "[task_allocation]") {
-  const auto result = plan(two_nodes());
-  REQUIRE(std::holds_alternative<task_plan>(result));
-  const auto reply = message_json(std::get<task_plan>(result));
+  const auto reply = message_json(plan(two_nodes()));
   CHECK_FALSE(validate_message(reply));
   CHECK(reply.at("type") == "task_plan");
   CHECK(reply.at("task") == "t");
@@ -126,7 +144,7 @@ TEST_CASE("A node is no place for what it does not grant to the skill",
             "grant it: grant = see=scheduling:fifo:10"});
   document["nodes"][1]["grants"] = {
       "see=capability:NET_RAW,scheduling:fifo:20"};
-  CHECK(std::holds_alternative<task_plan>(plan(document)));
+  CHECK(plan(document).task == "t");
   // What this version does not understand grants nothing.
   document["nodes"][1]["grants"] = {"see=everything"};
   CHECK(refusal(document).code == error_code::no_feasible_allocation);
@@ -137,13 +155,13 @@ TEST_CASE("Each node has a label with its name, unless it was given another",
   auto document = two_nodes();
   auto& labels = document["request"]["pipeline"][0]["labels"];
   labels = {{"node", "a"}};
-  CHECK(std::holds_alternative<task_plan>(plan(document)));
+  CHECK(plan(document).task == "t");
   labels = {{"node", "nobody"}};
   CHECK(refusal(document).details.find(
             "needs the label 'node=nobody', the node has 'node=a'")
         != std::string::npos);
   document["nodes"][0]["labels"]["node"] = "nobody";
-  CHECK(std::holds_alternative<task_plan>(plan(document)));
+  CHECK(plan(document).task == "t");
 }
 
 TEST_CASE("What does not fit is refused with every candidate explained",
@@ -188,22 +206,16 @@ TEST_CASE("A named deployment option is the only candidate",
   options[1]["name"] = "big";
   options[1]["resources"]["cpu"] = 3;
   document["request"]["pipeline"][0]["deployment"] = "big";
-  const auto result = plan(document);
-  REQUIRE(std::holds_alternative<task_plan>(result));
-  CHECK(std::get<task_plan>(result).allocations[0].deployment == "big");
+  CHECK(plan(document).allocations[0].deployment == "big");
 }
 
 TEST_CASE("A node without the skill is rejected for that",
           "[task_allocation]") {
-  const auto document =
-      std::get<plan_document>(decode<plan_document>(two_nodes()));
-  resolved_step step;
-  step.step = document.request.pipeline[0];
-  step.step.labels.clear();
+  const auto document = read(two_nodes());
+  auto step = step_anywhere(document);
   step.builds = {{"h1", document.skills[0].models[0], {"g"}}};
-  const auto result = allocate({"t", {step}, document.nodes});
-  REQUIRE(std::holds_alternative<task_plan>(result));
-  const auto& found = std::get<task_plan>(result);
+  const auto found =
+      must_be<task_plan>(allocate({"t", {step}, document.nodes}));
   CHECK(found.allocations[0].node == "g");
   REQUIRE(found.rejected.size() == 1);
   CHECK(found.rejected[0].node == "a");
@@ -211,7 +223,7 @@ TEST_CASE("A node without the skill is rejected for that",
 
 TEST_CASE("Each node runs its own build, also where it is for another machine",
           "[task_allocation]") {
-  auto document = std::get<plan_document>(decode<plan_document>(two_nodes()));
+  auto document = read(two_nodes());
   document.nodes[1].architecture = "arm64";
   document.nodes[1].labels["room"] = "yard";
   resolved_step step;
@@ -226,9 +238,8 @@ TEST_CASE("Each node runs its own build, also where it is for another machine",
   step.builds = {{"h1", model, {"a"}}, {"h2", other, {"g"}}};
   for (const auto* room : {"hall", "yard"}) {
     step.step.labels["room"] = room;
-    const auto result = allocate({"t", {step}, document.nodes});
-    REQUIRE(std::holds_alternative<task_plan>(result));
-    const auto& found = std::get<task_plan>(result);
+    const auto found =
+        must_be<task_plan>(allocate({"t", {step}, document.nodes}));
     const bool in_hall = room == std::string{"hall"};
     CHECK(found.allocations[0].node == (in_hall ? "a" : "g"));
     CHECK(found.allocations[0].build == (in_hall ? "h1" : "h2"));
@@ -243,34 +254,29 @@ TEST_CASE("Each node runs its own build, also where it is for another machine",
 
 TEST_CASE("A candidate that was refused is left out with its node's build",
           "[task_allocation]") {
-  const auto document =
-      std::get<plan_document>(decode<plan_document>(two_nodes()));
-  resolved_step step;
-  step.step = document.request.pipeline[0];
-  step.step.labels.clear();
+  const auto document = read(two_nodes());
+  auto step = step_anywhere(document);
   const auto& model = document.skills[0].models[0];
   auto other = model;
   other.deployments[0].resources.cpu = 1.5;
   step.builds = {{"h1", model, {"a"}}, {"h2", other, {"g"}}};
-  const auto result =
-      allocate({"t", {step}, document.nodes, {{"s0", "g", "cpu", -1, "no"}}});
-  REQUIRE(std::holds_alternative<task_plan>(result));
-  CHECK(std::get<task_plan>(result).allocations[0].build == "h1");
+  const auto found = must_be<task_plan>(
+      allocate({"t", {step}, document.nodes, {{"s0", "g", "cpu", -1, "no"}}}));
+  CHECK(found.allocations[0].build == "h1");
 }
 
 TEST_CASE("A node without any build is rejected once, whatever the builds",
           "[task_allocation]") {
-  const auto document =
-      std::get<plan_document>(decode<plan_document>(two_nodes()));
+  const auto document = read(two_nodes());
   resolved_step step;
   step.step = document.request.pipeline[0];
   const auto& model = document.skills[0].models[0];
   auto other = model;
   other.deployments[0].resources.cpu = 1.5;
   step.builds = {{"h1", model, {"a"}}, {"h2", other, {"elsewhere"}}};
-  const auto result = allocate({"t", {step}, document.nodes});
-  REQUIRE(std::holds_alternative<task_plan>(result));
-  CHECK(std::get<task_plan>(result).rejected.size() == 1);
+  const auto found =
+      must_be<task_plan>(allocate({"t", {step}, document.nodes}));
+  CHECK(found.rejected.size() == 1);
 }
 
 TEST_CASE("A cell whose cores are busy is read with the floor, and says so",
@@ -279,14 +285,13 @@ TEST_CASE("A cell whose cores are busy is read with the floor, and says so",
   text["request"]["pipeline"].erase(1);
   text["nodes"][0]["cpu"]["used"] = 4;
   text["nodes"][0]["cpu_compressible"] = 1;
-  const auto document = std::get<plan_document>(decode<plan_document>(text));
+  const auto document = read(text);
   resolved_step step;
   step.step = document.request.pipeline[0];
   step.builds = {
       {std::string(64, 'a'), document.skills[0].models[0], {"a", "g"}}};
-  const auto result = allocate({"t", {step}, document.nodes});
-  REQUIRE(std::holds_alternative<task_plan>(result));
-  const auto reply = message_json(std::get<task_plan>(result));
+  const auto reply =
+      message_json(must_be<task_plan>(allocate({"t", {step}, document.nodes})));
   const auto why = validate_message(reply);
   INFO((why ? why->message + " " + why->where : ""));
   CHECK_FALSE(why);
@@ -302,10 +307,8 @@ TEST_CASE("A cell whose cores are busy is read with the floor, and says so",
 TEST_CASE("Without any node nothing can be placed", "[task_allocation]") {
   auto document = two_nodes();
   document["nodes"] = json::array();
-  const auto parsed = std::get<plan_document>(decode<plan_document>(document));
-  const auto result = allocate_offline(parsed);
-  REQUIRE(std::holds_alternative<failure>(result));
-  CHECK(std::get<failure>(result).code == error_code::no_feasible_allocation);
+  CHECK(must_be<failure>(allocate_offline(read(document))).code
+        == error_code::no_feasible_allocation);
 }
 
 TEST_CASE("A rejected candidate has its causes for programs",
@@ -339,8 +342,7 @@ TEST_CASE("A cause that is no amount has no numbers", "[task_allocation]") {
 
 TEST_CASE("A plan tells the use of its nodes, and its bound",
           "[task_allocation]") {
-  const auto result = plan(two_nodes());
-  const auto& found = std::get<task_plan>(result);
+  const auto found = plan(two_nodes());
   CHECK(found.score.lower_bound == found.score.total);
   CHECK(found.score.gap == 0);
   CHECK(found.score.alpha == 0.1);
@@ -352,18 +354,15 @@ TEST_CASE("A plan tells the use of its nodes, and its bound",
 
 TEST_CASE("The alternative of a step that can be nowhere else is an obstacle",
           "[task_allocation]") {
-  const auto document =
-      std::get<plan_document>(decode<plan_document>(two_nodes()));
-  const auto result = allocate_offline(document, "s1");
-  REQUIRE(std::holds_alternative<task_plan>(result));
-  const auto& found = std::get<task_plan>(result);
+  const auto document = read(two_nodes());
+  const auto found = must_be<task_plan>(allocate_offline(document, "s1"));
   REQUIRE(found.alternatives.size() == 1);
   CHECK(found.alternatives[0].step == "s1");
   CHECK(found.alternatives[0].allocations.empty());
   CHECK(found.alternatives[0].obstacle == "step 's1' fits on no node");
   CHECK_FALSE(validate_message(message_json(found)));
-  const auto unknown = allocate_offline(document, "s9");
-  CHECK(std::get<failure>(unknown).where == "/why");
+  const auto unknown = must_be<failure>(allocate_offline(document, "s9"));
+  CHECK(unknown.where == "/why");
 }
 
 namespace {
@@ -379,37 +378,20 @@ failure schema_refusal(const json& document) {
 
 TEST_CASE("Bad resources and names on paper are refused by their place",
           "[task_allocation]") {
+  // JSON has neither NaN nor infinity; a library writes null for them.
+  const auto [at, bad, where] = GENERATE(table<std::string, json, std::string>(
+      {{"/nodes/0/cpu/used", -1, ""},
+       {"/nodes/1/memory_mib/capacity", 1e15, ""},
+       {"/nodes/0/cpu/capacity", nullptr, ""},
+       {"/nodes/1/name", "a", ""},
+       {"/request/pipeline/1/id", "s0", ""},
+       {"/request/pipeline", json::array(), ""},
+       // A GPU twice.
+       {"/nodes/1/gpus/1", two_nodes().at("/nodes/1/gpus/0"_json_pointer),
+        "/index"}}));
   auto document = two_nodes();
-  SECTION("negative") {
-    document["nodes"][0]["cpu"]["used"] = -1;
-    CHECK(schema_refusal(document).where == "/nodes/0/cpu/used");
-  }
-  SECTION("absurdly large") {
-    document["nodes"][1]["memory_mib"]["capacity"] = 1e15;
-    CHECK(schema_refusal(document).where == "/nodes/1/memory_mib/capacity");
-  }
-  SECTION("not a number") {
-    // JSON has neither NaN nor infinity; a library writes null for them.
-    document["nodes"][0]["cpu"]["capacity"] = nullptr;
-    CHECK(schema_refusal(document).where == "/nodes/0/cpu/capacity");
-  }
-  SECTION("a node twice") {
-    document["nodes"][1]["name"] = "a";
-    CHECK(schema_refusal(document).where == "/nodes/1/name");
-  }
-  SECTION("a step twice") {
-    document["request"]["pipeline"][1]["id"] = "s0";
-    CHECK(schema_refusal(document).where == "/request/pipeline/1/id");
-  }
-  SECTION("no step") {
-    document["request"]["pipeline"] = json::array();
-    CHECK(schema_refusal(document).where == "/request/pipeline");
-  }
-  SECTION("a GPU twice") {
-    auto& gpus = document["nodes"][1]["gpus"];
-    gpus.push_back(gpus[0]);
-    CHECK(schema_refusal(document).where == "/nodes/1/gpus/1/index");
-  }
+  document[json::json_pointer{at}] = bad;
+  CHECK(schema_refusal(document).where == at + where);
 }
 
 TEST_CASE("10,000 steps are refused with the limit", "[task_allocation]") {
@@ -426,13 +408,11 @@ TEST_CASE("10,000 steps are refused with the limit", "[task_allocation]") {
 
 TEST_CASE("Numbers that no schema has seen are refused by the search",
           "[task_allocation]") {
-  auto document = std::get<plan_document>(decode<plan_document>(two_nodes()));
+  auto document = read(two_nodes());
   const auto bad = GENERATE(-1.0, std::numeric_limits<double>::quiet_NaN(),
                             std::numeric_limits<double>::infinity(), 1e300);
   document.nodes[0].disk_mib.capacity = bad;
-  const auto result = allocate_offline(document);
-  REQUIRE(std::holds_alternative<failure>(result));
-  const auto& why = std::get<failure>(result);
+  const auto why = must_be<failure>(allocate_offline(document));
   CHECK(why.code == error_code::schema_violation);
   CHECK(why.message.find("nodes[0].disk_mib.capacity") != std::string::npos);
 }
@@ -454,9 +434,7 @@ TEST_CASE("A node that uses more than it has is full, with a warning; one "
   document["nodes"][0]["disk_mib"] = {{"capacity", 4}, {"used", 5}};
   document["skills"][0]["models"][0]["deployments"][0]["resources"]
           ["disk_mib"] = 0;
-  const auto found = plan(document);
-  REQUIRE(std::holds_alternative<task_plan>(found));
-  CHECK(std::get<task_plan>(found).warnings.size() == 1);
+  CHECK(plan(document).warnings.size() == 1);
 }
 
 } // namespace roscell::test

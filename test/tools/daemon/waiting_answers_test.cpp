@@ -35,7 +35,7 @@ struct waiting_bench {
     return {};
   }
 
-  own_folder folder;
+  temp_folder folder;
   node_config config;
 };
 

@@ -43,7 +43,7 @@ public:
   }
 
 private:
-  test::own_folder folder_;
+  test::temp_folder folder_;
 };
 
 } // namespace

@@ -150,7 +150,7 @@ TEST_CASE("shared memory is judged by room and by who may write", "[doctor]") {
 }
 
 TEST_CASE("a folder of fences that is not its user's is told", "[doctor]") {
-  const test::own_folder shm;
+  const test::temp_folder shm;
   const auto own = "roscell-" + std::to_string(::geteuid());
   std::filesystem::create_directory(shm.path() / own);
   std::filesystem::permissions(shm.path() / own,

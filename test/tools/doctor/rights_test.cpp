@@ -1,6 +1,7 @@
 #include "tools/roscell/doctor/host/rights.hpp"
 
 #include "actors/edge/session/site_token.hpp"
+#include "test/temp_folder.hpp"
 #include "tools/roscell/client/open_skills.hpp"
 
 #include <catch2/catch.hpp>
@@ -23,21 +24,13 @@ namespace fs = std::filesystem;
 /// A host whose user has his site token in a folder of this test.
 struct doors_fixture {
   doors_fixture() {
-    std::string name = "/tmp/roscell-doors.XXXXXX";
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
-    folder = name;
     ::setenv(site_token_variable, token().c_str(), 1);
     host.config.data_dir = folder / "data";
   }
 
   ~doors_fixture() {
     ::unsetenv(site_token_variable);
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
   }
-
-  doors_fixture(const doors_fixture&) = delete;
-  doors_fixture& operator=(const doors_fixture&) = delete;
 
   fs::path token() const {
     return folder / "site.token";
@@ -54,7 +47,8 @@ struct doors_fixture {
     return found[0];
   }
 
-  fs::path folder;
+  test::temp_folder own;
+  const fs::path folder = own.path();
   checked_host host;
 };
 

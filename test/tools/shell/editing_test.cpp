@@ -1,3 +1,4 @@
+#include "test/temp_folder.hpp"
 #include "tools/roscell/completion/live_names.hpp"
 #include "tools/roscell/shell/editing/history_file.hpp"
 #include "tools/roscell/shell/editing/paste_filter.hpp"
@@ -7,8 +8,6 @@
 #include <cstdlib>
 #include <fstream>
 
-#include <unistd.h>
-
 using namespace roscell;
 using namespace roscell::cli;
 namespace fs = std::filesystem;
@@ -17,23 +16,11 @@ namespace {
 
 using words = std::vector<std::string>;
 
-/// A folder that goes with the test.
-struct scratch_folder {
-  fs::path path =
-      fs::temp_directory_path() / ("roscell-shell-" + std::to_string(getpid()));
-  scratch_folder() {
-    fs::remove_all(path);
-  }
-  ~scratch_folder() {
-    fs::remove_all(path);
-  }
-};
-
 } // namespace
 
 TEST_CASE("the history is the user's own file", "[shell]") {
-  const scratch_folder folder;
-  const auto file = folder.path / "state/history";
+  const test::temp_folder folder;
+  const auto file = folder.path() / "state/history";
   CHECK(history_file{file}.add("tasks"));
   CHECK(fs::status(file).permissions()
         == (fs::perms::owner_read | fs::perms::owner_write));
@@ -41,8 +28,8 @@ TEST_CASE("the history is the user's own file", "[shell]") {
 }
 
 TEST_CASE("the history keeps what somebody wants again", "[shell]") {
-  const scratch_folder folder;
-  history_file kept{folder.path / "history"};
+  const test::temp_folder folder;
+  history_file kept{folder.path() / "history"};
   CHECK(kept.add("tasks"));
   CHECK_FALSE(kept.add("tasks"));
   CHECK_FALSE(kept.add(" secret"));
@@ -50,14 +37,13 @@ TEST_CASE("the history keeps what somebody wants again", "[shell]") {
   CHECK_FALSE(kept.add("two\nlines"));
   CHECK(kept.add("nodes"));
   CHECK(kept.add("tasks"));
-  CHECK(history_file{folder.path / "history"}.lines()
+  CHECK(history_file{folder.path() / "history"}.lines()
         == words{"tasks", "nodes", "tasks"});
 }
 
 TEST_CASE("the history is bounded", "[shell]") {
-  const scratch_folder folder;
-  const auto file = folder.path / "history";
-  fs::create_directory(folder.path);
+  const test::temp_folder folder;
+  const auto file = folder.path() / "history";
   std::ofstream out{file};
   for (size_t i = 0; i < history_file::most_lines + 10; ++i)
     out << "line " << i << "\n";
@@ -67,13 +53,14 @@ TEST_CASE("the history is bounded", "[shell]") {
 }
 
 TEST_CASE("two shells add to one history", "[shell]") {
-  const scratch_folder folder;
-  history_file one{folder.path / "history"};
-  history_file two{folder.path / "history"};
+  const test::temp_folder folder;
+  history_file one{folder.path() / "history"};
+  history_file two{folder.path() / "history"};
   one.add("a");
   two.add("b");
   one.add("c");
-  CHECK(history_file{folder.path / "history"}.lines() == words{"a", "b", "c"});
+  CHECK(history_file{folder.path() / "history"}.lines()
+        == words{"a", "b", "c"});
 }
 
 TEST_CASE("a history that cannot be written stops nobody", "[shell]") {

@@ -10,7 +10,7 @@ import {
 
 /** By the column's word: what is shown of its value. */
 const WORDS = {
-  count: (x) => number(x, 9), number, hertz, milliseconds, mebibytes, since: (x) => ago(x),
+  count: (x) => number(x, 9), number: (x) => number(x), hertz, milliseconds, mebibytes, since: (x) => ago(x),
   labels: labelWords, gpus: gpuWords, programs, problems: (x = []) => x.join('; '),
   skill: (x, { spec }) => `${x} / ${spec.model} / ${spec.deployment}`,
   amount: (_, row, app) => app.store.instancesOn(row.identity.name).length,

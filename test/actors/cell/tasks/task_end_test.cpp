@@ -39,23 +39,8 @@ struct one_arm : paper_cell {
 
 /// A record of a task with a step on "arm" that ended with 0.
 task_record ended_record() {
-  instance_spec spec;
-  spec.instance = "t-on-arm";
-  spec.task = "t";
-  spec.step = "s0";
-  spec.operation = "echo";
-  spec.model = "plain";
-  spec.deployment = "cpu-1";
-  spec.parameters = "{}";
-  task_record result;
-  result.task = "t";
-  result.request = "{}";
-  result.accepted = R"({"type":"task_accepted"})";
-  result.state = task_state::running;
-  result.specs = {spec};
-  result.nodes = {"arm"};
-  return with_ends(result, {{"t-on-arm", instance_state::stopped, 0, "", 9}},
-                   9);
+  return with_ends(kept_record({echo_instance("t-on-arm")}, {"arm"}),
+                   {{"t-on-arm", instance_state::stopped, 0, "", 9}}, 9);
 }
 
 } // namespace

@@ -147,23 +147,8 @@ TEST_CASE("A task that is terminated while it moves leaves nothing",
 }
 
 TEST_CASE("A restarted coordinator drops a move that went on", "[task_move]") {
-  instance_spec spec;
-  spec.instance = "t-old";
-  spec.task = "t";
-  spec.step = "s0";
-  spec.operation = "echo";
-  spec.model = "plain";
-  spec.deployment = "cpu-1";
-  spec.parameters = "{}";
-  auto added = spec;
-  added.instance = "t-new";
-  task_record record;
-  record.task = "t";
-  record.request = "{}";
-  record.accepted = R"({"type":"task_accepted"})";
-  record.state = task_state::running;
-  record.specs = {spec, added};
-  record.nodes = {"left", "right"};
+  const auto added = echo_instance("t-new");
+  auto record = kept_record({echo_instance("t-old"), added}, {"left", "right"});
   record.tentative = {"t-new"};
   paper_cell cell{{record}};
   auto& right = cell.make_agent("right");

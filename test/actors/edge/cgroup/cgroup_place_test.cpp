@@ -34,7 +34,7 @@ struct fake_unified {
             {{{}, "/system.slice/roscell.service"}}};
   }
 
-  own_folder folder;
+  temp_folder folder;
 };
 
 std::vector<std::string> folders_in(const cgroup_request& request,

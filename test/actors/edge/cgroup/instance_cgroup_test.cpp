@@ -137,7 +137,7 @@ TEST_CASE("what is left of other instances goes, what is known stays",
 
 TEST_CASE("a cgroup is found again by what its instance's folder says",
           "[cgroup]") {
-  const own_folder folder;
+  const temp_folder folder;
   const cgroup_place place{
       1, {{folder.path() / "a", {}}, {folder.path() / "b", {}}}, ""};
   fs::create_directories(folder.path() / "a");
@@ -156,7 +156,7 @@ TEST_CASE("a cgroup is found again by what its instance's folder says",
 }
 
 TEST_CASE("a record that names something else is none", "[cgroup]") {
-  const own_folder folder;
+  const temp_folder folder;
   const auto records = folder.path() / "i";
   fs::create_directories(records);
   write(folder.path() / "other/cgroup.procs", "");
@@ -180,7 +180,7 @@ TEST_CASE("the share of CPU is that of the cores that are reserved",
 }
 
 TEST_CASE("the use of a cgroup is read, of either version", "[cgroup]") {
-  const own_folder folder;
+  const temp_folder folder;
   const auto unified = folder.path() / "unified";
   write(unified / "memory.current", "104857600\n");
   write(unified / "memory.max", "134217728\n");

@@ -10,7 +10,7 @@ using namespace roscell;
 using namespace roscell::test;
 
 TEST_CASE("a folder is held by one at a time, and named is who holds it") {
-  own_folder folder;
+  temp_folder folder;
   const auto data = folder.path() / "a" / "data";
   {
     const auto lock = value_of(directory_lock::take(data));
@@ -23,7 +23,7 @@ TEST_CASE("a folder is held by one at a time, and named is who holds it") {
 }
 
 TEST_CASE("a data directory is made for its owner only") {
-  own_folder folder;
+  temp_folder folder;
   const auto data = folder.path() / "data";
   value_of(directory_lock::take(data));
   struct stat info {};
@@ -32,8 +32,7 @@ TEST_CASE("a data directory is made for its owner only") {
 }
 
 TEST_CASE("a lock file of anything does not confuse the message") {
-  own_folder folder;
-  folder.write("lock", "\xFF\xFF no number");
+  temp_folder folder{"lock", "\xFF\xFF no number"};
   const auto lock = value_of(directory_lock::take(folder.path()));
   folder.write("lock", std::string(100, '1'));
   CHECK(error_of(directory_lock::take(folder.path())).message
@@ -42,7 +41,7 @@ TEST_CASE("a lock file of anything does not confuse the message") {
 }
 
 TEST_CASE("what is no folder cannot be held") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.write("file", "");
   CHECK(error_of(directory_lock::take(file)).code == error_code::internal);
   CHECK(error_of(directory_lock::take(file / "below")).code
@@ -52,7 +51,7 @@ TEST_CASE("what is no folder cannot be held") {
 namespace fs = std::filesystem;
 
 TEST_CASE("a file is put aside with what belongs to it") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.write("state.db", "a");
   folder.write("state.db-wal", "b");
   const auto to = value_of(put_aside(file));
@@ -64,7 +63,7 @@ TEST_CASE("a file is put aside with what belongs to it") {
 }
 
 TEST_CASE("what was put aside before stays") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.write("state.db", "a");
   folder.write("state.db.aside-1", "old");
   CHECK(value_of(put_aside(file)) == folder.path() / "state.db.aside-2");
@@ -72,6 +71,6 @@ TEST_CASE("what was put aside before stays") {
 }
 
 TEST_CASE("no file is nothing to put aside") {
-  own_folder folder;
+  temp_folder folder;
   CHECK(value_of(put_aside(folder.path() / "state.db")).empty());
 }

@@ -39,7 +39,7 @@ fs::path make_folder(const fs::path& path, mode_t mode = 0755) {
 } // namespace
 
 TEST_CASE("what only this user and root may change is nobody else's") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.write("file", "x");
   set_mode(file, 0644);
   CHECK(who_may_change(file).empty());
@@ -49,7 +49,7 @@ TEST_CASE("what only this user and root may change is nobody else's") {
 }
 
 TEST_CASE("what others may write to is told with who they are") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.write("file", "x");
   set_mode(file, 0664);
   CHECK(who_may_change(file) == "its group may write to it");
@@ -65,7 +65,7 @@ TEST_CASE("what others may write to is told with who they are") {
 }
 
 TEST_CASE("a folder on the way may let others in only while it is sticky") {
-  own_folder folder;
+  temp_folder folder;
   const auto shared = make_folder(folder.path() / "shared", 01777);
   const auto data = make_folder(shared / "data", 0700);
   CHECK(who_may_replace(data).empty());
@@ -80,7 +80,7 @@ TEST_CASE("a folder on the way may let others in only while it is sticky") {
 }
 
 TEST_CASE("a link that others have made leads nowhere") {
-  own_folder folder;
+  temp_folder folder;
   const auto data = make_folder(folder.path() / "data", 0700);
   const auto link = folder.path() / "link";
   fs::create_symlink(data, link);
@@ -94,7 +94,7 @@ TEST_CASE("a link that others have made leads nowhere") {
 
 TEST_CASE("a data directory into which others may put something is not taken, "
           "and nothing is written there") {
-  own_folder folder;
+  temp_folder folder;
   const auto data = make_folder(folder.path() / "data", 0700);
   fs::create_symlink(folder.write("victim", "precious"), data / "lock");
   SECTION("everybody may") {
@@ -139,7 +139,7 @@ mode_t others_of(const std::string& path) {
 } // namespace
 
 TEST_CASE("one more user may write a file, and nobody else", "[access]") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.write("file", "x");
   ::chmod(file.c_str(), 0600);
   ::chmod(folder.path().c_str(), 0700);
@@ -167,6 +167,6 @@ TEST_CASE("one more user may write a file, and nobody else", "[access]") {
 }
 
 TEST_CASE("a file that is not there lets nobody in", "[access]") {
-  own_folder folder;
+  temp_folder folder;
   CHECK_FALSE(let_user(folder.path() / "none", guest, access_right::pass));
 }

@@ -19,8 +19,8 @@ std::string hash(const fs::path& folder) {
 } // namespace
 
 TEST_CASE("a folder's hash depends on names, contents and x bits only") {
-  own_folder one;
-  own_folder two;
+  temp_folder one;
+  temp_folder two;
   for (const auto* x : {&one, &two}) {
     x->write("a", "1");
     x->write("b/c", "2");
@@ -54,7 +54,7 @@ TEST_CASE("a folder's hash depends on names, contents and x bits only") {
 }
 
 TEST_CASE("a link inside the folder is content, one that leads out is not") {
-  own_folder folder;
+  temp_folder folder;
   folder.write("skill/a", "1");
   folder.write("outside", "2");
   const auto skill = folder.path() / "skill";
@@ -84,14 +84,14 @@ TEST_CASE("a link inside the folder is content, one that leads out is not") {
 }
 
 TEST_CASE("a pipe in a skill folder is refused without waiting for it") {
-  own_folder folder;
+  temp_folder folder;
   REQUIRE(::mkfifo((folder.path() / "pipe").c_str(), 0600) == 0);
   CHECK(error_of(hash_folder(folder.path())).code
         == error_code::schema_violation);
 }
 
 TEST_CASE("a folder beyond the limits is refused") {
-  own_folder folder;
+  temp_folder folder;
   folder.write("a", "12345");
   folder.write("b/c/d/e", "1");
   folder_limits limits;
@@ -114,7 +114,7 @@ TEST_CASE("a folder that is not there cannot be hashed") {
 
 TEST_CASE(
     "a folder looks otherwise once a file was written, added or removed") {
-  own_folder folder;
+  temp_folder folder;
   folder.write("a", "1");
   folder.write("b/c", "2");
   const auto look = [&] { return value_of(read_folder(folder.path())); };

@@ -48,7 +48,7 @@ records load(sqlite_store& store, const std::string& table) {
 } // namespace
 
 TEST_CASE("a record outlives its store") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.path() / "state.db";
   {
     auto store = value_of(sqlite_store::open(file));
@@ -64,7 +64,7 @@ TEST_CASE("a record outlives its store") {
 }
 
 TEST_CASE("a removed record is gone, and removing none is no error") {
-  own_folder folder;
+  temp_folder folder;
   auto store = value_of(sqlite_store::open(folder.path() / "state.db"));
   CHECK_FALSE(store.put("t", "k", "v"));
   CHECK_FALSE(store.remove("t", "k"));
@@ -73,7 +73,7 @@ TEST_CASE("a removed record is gone, and removing none is no error") {
 }
 
 TEST_CASE("several records are written in their order") {
-  own_folder folder;
+  temp_folder folder;
   auto store = value_of(sqlite_store::open(folder.path() / "state.db"));
   CHECK_FALSE(store.write({{"t", "a", "1"}, {"t", "b", "2"}}));
   CHECK_FALSE(
@@ -84,7 +84,7 @@ TEST_CASE("several records are written in their order") {
 }
 
 TEST_CASE("several records are written all or none") {
-  own_folder folder;
+  temp_folder folder;
   auto store = value_of(sqlite_store::open(folder.path() / "state.db"));
   CHECK_FALSE(store.put("t", "old", "1"));
   std::vector<sqlite_store::change> changes{{"t", "old", std::nullopt}};
@@ -102,7 +102,7 @@ TEST_CASE("several records are written all or none") {
 }
 
 TEST_CASE("keys and values are data and never SQL") {
-  own_folder folder;
+  temp_folder folder;
   auto store = value_of(sqlite_store::open(folder.path() / "state.db"));
   const std::string evil = "'); DROP TABLE records; --";
   CHECK_FALSE(store.put(evil, evil, evil));
@@ -110,7 +110,7 @@ TEST_CASE("keys and values are data and never SQL") {
 }
 
 TEST_CASE("what a node records is for its owner only") {
-  own_folder folder;
+  temp_folder folder;
   auto store = value_of(sqlite_store::open(folder.path() / "state.db"));
   CHECK_FALSE(store.put("t", "k", "v"));
   for (const auto* name : {"state.db", "state.db-wal"}) {
@@ -121,7 +121,7 @@ TEST_CASE("what a node records is for its owner only") {
 }
 
 TEST_CASE("a store that another program holds is a conflict") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.path() / "state.db";
   auto first = value_of(sqlite_store::open(file));
   const auto why = error_of(sqlite_store::open(file));
@@ -130,7 +130,7 @@ TEST_CASE("a store that another program holds is a conflict") {
 }
 
 TEST_CASE("a damaged file is named as such") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.write("state.db", std::string(10'000, 'x'));
   const auto why = error_of(sqlite_store::open(file));
   CHECK(why.message.find("is damaged") != std::string::npos);
@@ -138,7 +138,7 @@ TEST_CASE("a damaged file is named as such") {
 }
 
 TEST_CASE("damage inside a file is found when it is opened") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.path() / "state.db";
   {
     auto store = value_of(sqlite_store::open(file));
@@ -155,7 +155,7 @@ TEST_CASE("damage inside a file is found when it is opened") {
 }
 
 TEST_CASE("a file of a newer version is not touched") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.path() / "state.db";
   value_of(sqlite_store::open(file));
   {
@@ -169,7 +169,7 @@ TEST_CASE("a file of a newer version is not touched") {
 }
 
 TEST_CASE("a file of the version before is carried over") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.path() / "state.db";
   {
     auto store = value_of(sqlite_store::open(file));
@@ -192,7 +192,7 @@ TEST_CASE("a file of the version before is carried over") {
 }
 
 TEST_CASE("a file is opened and read although the disk is full") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.path() / "state.db";
   {
     auto store = value_of(sqlite_store::open(file));
@@ -210,7 +210,7 @@ TEST_CASE("a folder that cannot be written is told of") {
     WARN("skipped: root may write everywhere");
     return;
   }
-  own_folder folder;
+  temp_folder folder;
   ::chmod(folder.path().c_str(), 0500);
   const auto why = error_of(sqlite_store::open(folder.path() / "state.db"));
   CHECK(why.message.find("cannot be written") != std::string::npos);
@@ -242,7 +242,7 @@ std::optional<edge_error> fill_disk(const std::filesystem::path& folder) {
 } // namespace
 
 TEST_CASE("a full disk is told of by name") {
-  own_folder folder;
+  temp_folder folder;
   std::optional<edge_error> why;
   // A thread with a mount namespace of its own: it goes with the thread.
   std::thread{[&] {
@@ -260,7 +260,7 @@ TEST_CASE("a full disk is told of by name") {
 }
 
 TEST_CASE("who gives way is asked for room until there is enough") {
-  own_folder folder;
+  temp_folder folder;
   std::optional<edge_error> why;
   int asked = 0;
   std::thread{[&] {

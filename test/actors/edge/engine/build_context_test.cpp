@@ -39,9 +39,9 @@ struct context_bench {
     return result;
   }
 
-  own_folder skill;
-  own_folder other;
-  own_folder work;
+  temp_folder skill;
+  temp_folder other;
+  temp_folder work;
 };
 
 } // namespace

@@ -15,7 +15,7 @@ namespace {
 /// A client and the engine that a test plays.
 struct engine_bench {
   explicit engine_bench(fake_engine::handler handle)
-      : engine(folder.path("s"), std::move(handle)) {
+      : engine(folder / "s", std::move(handle)) {
     // nop
   }
 
@@ -26,10 +26,10 @@ struct engine_bench {
     return answers.take();
   }
 
-  scratch_folder folder;
+  temp_folder folder;
   fake_engine engine;
   io_thread io;
-  engine_client client{io.core(), folder.path("s")};
+  engine_client client{io.core(), folder / "s"};
 };
 
 engine_request ask_for(std::string target) {
@@ -89,25 +89,25 @@ TEST_CASE("a file is sent as it is") {
     who.reply(200, "");
   }};
   const std::string content(300'000, 'x');
-  std::ofstream{b.folder.path("tar")} << content;
+  std::ofstream{b.folder / "tar"} << content;
   engine_request request;
   request.method = "POST";
   request.target = "/build";
-  request.file = b.folder.path("tar");
+  request.file = b.folder / "tar";
   CHECK(expect(b.ask(request)).status == 200);
   CHECK(seen.take().body == content);
-  request.file = b.folder.path("none");
+  request.file = b.folder / "none";
   CHECK(expect_error(b.ask(request)).code == error_code::engine_failed);
 }
 
 TEST_CASE("an engine may refuse a file before it has read it") {
-  scratch_folder folder;
+  temp_folder folder;
   io_thread io;
   const std::string content(8 << 20, 'x');
-  std::ofstream{folder.path("tar")} << content;
+  std::ofstream{folder / "tar"} << content;
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  const auto path = folder.path("s");
+  const auto path = folder / "s";
   path.copy(address.sun_path, sizeof address.sun_path - 1);
   const int fd = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   ::bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address);
@@ -115,7 +115,7 @@ TEST_CASE("an engine may refuse a file before it has read it") {
   engine_request request;
   request.method = "POST";
   request.target = "/build";
-  request.file = folder.path("tar");
+  request.file = folder / "tar";
   inbox<engine_answer> answers;
   engine_client{io.core(), path}.request(
       request, [&](engine_answer x) { answers.put(std::move(x)); });
@@ -129,8 +129,8 @@ TEST_CASE("an engine may refuse a file before it has read it") {
 
 TEST_CASE("errors name the socket and the remedy") {
   io_thread io;
-  scratch_folder folder;
-  const auto path = folder.path("none");
+  temp_folder folder;
+  const auto path = folder / "none";
   inbox<engine_answer> answers;
   engine_client{io.core(), path}.request(
       ask_for("/"), [&](engine_answer x) { answers.put(std::move(x)); });
@@ -141,7 +141,7 @@ TEST_CASE("errors name the socket and the remedy") {
   const auto denied = no_engine("/s", EACCES);
   CHECK(denied.code == error_code::unauthorized);
   CHECK(denied.hint.find("group docker") != std::string::npos);
-  const auto found = find_engine({path, folder.path("other")});
+  const auto found = find_engine({path, folder / "other"});
   CHECK(expect_error(found).message.find(path) != std::string::npos);
 }
 

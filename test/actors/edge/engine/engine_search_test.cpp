@@ -39,7 +39,7 @@ private:
 /// An engine that answers this to one question, and knows no other.
 struct engine_that_says {
   engine_that_says(const std::string& path, const std::string& answer)
-      : engine(folder.path("s"),
+      : engine(folder / "s",
                [=](engine_caller& who, const engine_call_seen& what) {
                  if (what.target == path)
                    who.reply(200, answer);
@@ -50,10 +50,10 @@ struct engine_that_says {
   }
 
   edge_result<found_engine> found() const {
-    return ask_for_engine(folder.path("s"));
+    return ask_for_engine(folder / "s");
   }
 
-  scratch_folder folder;
+  temp_folder folder;
   fake_engine engine;
 };
 
@@ -88,7 +88,7 @@ TEST_CASE("an engine is known by what only it answers") {
 
 TEST_CASE("an engine whose socket is a user's runs without root") {
   const engine_that_says engine{"/libpod/_ping", "OK"};
-  const auto socket = engine.folder.path("s");
+  const auto socket = engine.folder / "s";
   CHECK(expect(engine.found()).rootless == (::geteuid() != 0));
   if (::chown(socket.c_str(), 65534, 65534) == 0)
     CHECK(expect(engine.found()).rootless);
@@ -96,9 +96,8 @@ TEST_CASE("an engine whose socket is a user's runs without root") {
 
 TEST_CASE("the engine that answers first is taken, whatever its name") {
   const engine_that_says engine{"/libpod/_ping", "OK"};
-  const auto socket = engine.folder.path("s");
-  CHECK(expect(find_engine({engine.folder.path("none"), socket})).socket
-        == socket);
+  const auto socket = engine.folder / "s";
+  CHECK(expect(find_engine({engine.folder / "none", socket})).socket == socket);
 }
 
 TEST_CASE("what is no engine is not taken for one") {

@@ -58,7 +58,7 @@ TEST_CASE("the C library is the image's own") {
 }
 
 TEST_CASE("a program's libraries are all those that it loads") {
-  own_folder folder;
+  temp_folder folder;
   fs::create_directories(folder.path() / "bin");
   // This test is a dynamic program itself.
   fs::copy_file("/proc/self/exe", folder.path() / "bin/run");
@@ -74,8 +74,7 @@ TEST_CASE("a program's libraries are all those that it loads") {
 }
 
 TEST_CASE("a script needs no library, but a program beside it does") {
-  own_folder folder;
-  folder.write("bin/run", "#!/bin/sh\n");
+  temp_folder folder{"bin/run", "#!/bin/sh\n"};
   const auto found = find_libraries(folder.path(), folder.path() / "bin/run");
   CHECK(std::get<std::vector<shared_library>>(found).empty());
   fs::copy_file("/proc/self/exe", folder.path() / "bin/other");
@@ -84,7 +83,7 @@ TEST_CASE("a script needs no library, but a program beside it does") {
 }
 
 TEST_CASE("a damaged program is a clear error, a damaged file beside it none") {
-  own_folder folder;
+  temp_folder folder;
   const auto damaged = folder.write("bin/damaged", "\177ELF and no more");
   const auto refused = find_libraries(folder.path(), damaged);
   REQUIRE(std::holds_alternative<edge_error>(refused));
@@ -113,7 +112,7 @@ TEST_CASE("a static program needs no library, and no linker is asked") {
   part.p_type = PT_LOAD;
   std::string bytes(reinterpret_cast<const char*>(&header), sizeof(header));
   bytes.append(reinterpret_cast<const char*>(&part), sizeof(part));
-  own_folder folder;
+  temp_folder folder;
   const auto program = folder.write("bin/run", bytes);
   const auto found = find_libraries(folder.path(), program);
   CHECK(std::get<std::vector<shared_library>>(found).empty());
@@ -122,7 +121,7 @@ TEST_CASE("a static program needs no library, and no linker is asked") {
 }
 
 TEST_CASE("a script lacks no library, nor does a program for another machine") {
-  own_folder folder;
+  temp_folder folder;
   const auto script = folder.write("run", "#!/bin/sh\n");
   // The header of a program, up to what says that it is for System/390.
   const auto foreign =

@@ -60,7 +60,7 @@ void fill_files(event_files& files, uint64_t count) {
 } // namespace
 
 TEST_CASE("what has been written is read by the next run, in its order") {
-  own_folder folder;
+  temp_folder folder;
   {
     event_files files{folder.path()};
     REQUIRE_FALSE(files.append(from_to(7, 9), now_ms));
@@ -75,7 +75,7 @@ TEST_CASE("what has been written is read by the next run, in its order") {
 }
 
 TEST_CASE("a long past comes in parts") {
-  own_folder folder;
+  temp_folder folder;
   event_files files{folder.path()};
   const auto count = 3 * limits::history::part + 1;
   REQUIRE_FALSE(files.append(from_to(1, count), now_ms));
@@ -84,7 +84,7 @@ TEST_CASE("a long past comes in parts") {
 }
 
 TEST_CASE("the past begins at a number, at a time, or so many before its end") {
-  own_folder folder;
+  temp_folder folder;
   event_files files{folder.path()};
   REQUIRE_FALSE(files.append(from_to(1, 20), now_ms + 20));
   CHECK(all_of(files, {18, 0, 0}) == std::vector<uint64_t>{19, 20});
@@ -96,7 +96,7 @@ TEST_CASE("the past begins at a number, at a time, or so many before its end") {
 }
 
 TEST_CASE("a clock that is set back hides nothing that came later") {
-  own_folder folder;
+  temp_folder folder;
   event_files files{folder.path()};
   REQUIRE_FALSE(files.append({numbered(1, now_ms), numbered(2, now_ms + 10),
                               numbered(3, 1000), numbered(4, now_ms)},
@@ -105,7 +105,7 @@ TEST_CASE("a clock that is set back hides nothing that came later") {
 }
 
 TEST_CASE("a host that begins in 1970 hides nothing of the days before") {
-  own_folder folder;
+  temp_folder folder;
   event_files files{folder.path()};
   REQUIRE_FALSE(files.append(from_to(1, 3), now_ms + 3));
   REQUIRE_FALSE(files.append({numbered(4, 1000)}, 1000));
@@ -114,7 +114,7 @@ TEST_CASE("a host that begins in 1970 hides nothing of the days before") {
 }
 
 TEST_CASE("a line that a loss of power has torn costs itself alone") {
-  own_folder folder;
+  temp_folder folder;
   {
     event_files files{folder.path()};
     REQUIRE_FALSE(files.append(from_to(1, 3), now_ms));
@@ -127,7 +127,7 @@ TEST_CASE("a line that a loss of power has torn costs itself alone") {
 }
 
 TEST_CASE("what is no event of ours is passed over, whatever it is") {
-  own_folder folder;
+  temp_folder folder;
   {
     event_files files{folder.path()};
     REQUIRE_FALSE(files.append(from_to(1, 1), now_ms));
@@ -149,7 +149,7 @@ TEST_CASE("what is no event of ours is passed over, whatever it is") {
 }
 
 TEST_CASE("a file that is large or old gets no more") {
-  own_folder folder;
+  temp_folder folder;
   event_files files{folder.path()};
   SECTION("old") {
     fill_files(files, 5);
@@ -176,7 +176,7 @@ TEST_CASE("a file that is large or old gets no more") {
 }
 
 TEST_CASE("what cannot be written whole is taken back") {
-  own_folder folder;
+  temp_folder folder;
   event_files files{folder.path() / "not there"};
   const auto why = files.append(from_to(1, 2), now_ms);
   REQUIRE(why);
@@ -186,7 +186,7 @@ TEST_CASE("what cannot be written whole is taken back") {
 }
 
 TEST_CASE("what is too long for a line is kept without its particulars") {
-  own_folder folder;
+  temp_folder folder;
   event_files files{folder.path()};
   auto long_event = numbered(1);
   long_event.data = R"({"x":")" + std::string(limits::mib, 'x') + R"("})";
@@ -203,7 +203,7 @@ TEST_CASE("what is too long for a line is kept without its particulars") {
 }
 
 TEST_CASE("a batch of long events is read back whole") {
-  own_folder folder;
+  temp_folder folder;
   event_files files{folder.path()};
   std::vector<event> batch;
   for (uint64_t i = 1; i <= limits::history::batch; ++i) {
@@ -216,7 +216,7 @@ TEST_CASE("a batch of long events is read back whole") {
 }
 
 TEST_CASE("the past begins at a time in whichever file that is") {
-  own_folder folder;
+  temp_folder folder;
   event_files files{folder.path()};
   fill_files(files, 5);
   const auto age = std::chrono::milliseconds{limits::history::file_age}.count();

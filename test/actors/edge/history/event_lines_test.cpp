@@ -9,7 +9,7 @@ using namespace roscell;
 using namespace roscell::test;
 
 TEST_CASE("after a loss of power numbers begin above all that were given") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.path() / "numbers";
   uint64_t given = 0;
   {
@@ -25,7 +25,7 @@ TEST_CASE("after a loss of power numbers begin above all that were given") {
 }
 
 TEST_CASE("after an orderly end numbers go on without a gap") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.path() / "numbers";
   event_numbers numbers{file};
   REQUIRE_FALSE(numbers.set_aside(0));
@@ -34,7 +34,7 @@ TEST_CASE("after an orderly end numbers go on without a gap") {
 }
 
 TEST_CASE("a file of numbers that is damaged says nothing") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.path() / "numbers";
   const auto* text = GENERATE("", "x", "-5\n", "99999999999999999999999\n",
                               "9999999999999999\n");
@@ -43,7 +43,7 @@ TEST_CASE("a file of numbers that is damaged says nothing") {
 }
 
 TEST_CASE("numbers are set aside in place, which takes no more room") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.path() / "numbers";
   event_numbers numbers{file};
   REQUIRE_FALSE(numbers.set_aside(1));

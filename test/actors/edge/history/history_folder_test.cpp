@@ -38,7 +38,7 @@ void make_old(const std::filesystem::path& file, std::chrono::hours age) {
 } // namespace
 
 TEST_CASE("a history is for its user alone") {
-  own_folder folder;
+  temp_folder folder;
   const history_folder history{folder.path() / "history", plenty};
   struct stat info {};
   REQUIRE(::stat((folder.path() / "history").c_str(), &info) == 0);
@@ -46,7 +46,7 @@ TEST_CASE("a history is for its user alone") {
 }
 
 TEST_CASE("events of a run begin above those of all earlier ones") {
-  own_folder folder;
+  temp_folder folder;
   const auto path = folder.path() / "history";
   {
     history_folder history{path, plenty};
@@ -66,7 +66,7 @@ TEST_CASE("events of a run begin above those of all earlier ones") {
 }
 
 TEST_CASE("without its file of numbers events still get new ones") {
-  own_folder folder;
+  temp_folder folder;
   const auto path = folder.path() / "history";
   {
     history_folder history{path, plenty};
@@ -77,7 +77,7 @@ TEST_CASE("without its file of numbers events still get new ones") {
 }
 
 TEST_CASE("the bound in bytes is held, and the oldest goes first") {
-  own_folder folder;
+  temp_folder folder;
   const auto path = folder.path() / "history";
   const history_bound bound{limits::history::least_bytes, 24h};
   history_folder history{path, bound};
@@ -93,7 +93,7 @@ TEST_CASE("the bound in bytes is held, and the oldest goes first") {
 }
 
 TEST_CASE("what is too old goes") {
-  own_folder folder;
+  temp_folder folder;
   const auto path = folder.path() / "history";
   {
     history_folder history{path, plenty};
@@ -106,7 +106,7 @@ TEST_CASE("what is too old goes") {
 }
 
 TEST_CASE("a history gives way to what matters more, half of it at a time") {
-  own_folder folder;
+  temp_folder folder;
   history_folder history{folder.path() / "history", plenty};
   for (uint64_t i = 0; i < 60; ++i)
     REQUIRE(write_to(history, big_batch(1 + 10 * i, 10, 10'000)));
@@ -119,7 +119,7 @@ TEST_CASE("a history gives way to what matters more, half of it at a time") {
 }
 
 TEST_CASE("a history whose folder cannot be made refuses, and harms nobody") {
-  own_folder folder;
+  temp_folder folder;
   const auto path = folder.path() / "history";
   std::ofstream{path} << "a file";
   history_folder history{path, plenty};

@@ -48,8 +48,8 @@ struct log_bench {
     return result;
   }
 
-  own_folder instances;
-  own_folder data;
+  temp_folder instances;
+  temp_folder data;
   fs::path folder = data.path() / "history" / "logs";
   kept_log_folder kept{folder};
 };
@@ -193,7 +193,7 @@ TEST_CASE("what is damaged is counted, goes with age, and harms no other") {
 
 TEST_CASE("a link among kept logs is not followed") {
   log_bench b;
-  own_folder other;
+  temp_folder other;
   b.keep("t-s-1", 1000);
   fs::copy(b.folder / "t-s-1@1000", other.path() / "stolen",
            fs::copy_options::recursive);

@@ -1,7 +1,7 @@
 #include "actors/edge/host/host_probe.hpp"
 #include "actors/edge/limits.hpp"
-#include "host_probe_fixture.hpp"
 #include "test/places.hpp"
+#include "test/temp_folder.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -21,7 +21,7 @@ std::string stat_after(long long user_seconds, long long system_seconds = 0) {
          + " 99999 88888 0 0 0 0 0\ncpu0 1 2 3 4 5 6 7 8 9 10\n";
 }
 
-host_probe_options options_for(const fixture_root& root) {
+host_probe_options options_for(const temp_folder& root) {
   host_probe_options result;
   result.root = root.path();
   result.data_dir = root.path();
@@ -31,13 +31,15 @@ host_probe_options options_for(const fixture_root& root) {
 }
 
 /// A host with four cores and 8000 MiB, of which 3000 are in use.
-void make_host(fixture_root& root) {
-  root.write("/proc/stat", stat_after(100));
-  root.write("/proc/meminfo", "MemTotal:        8192000 kB\n"
-                              "MemFree:          100000 kB\n"
-                              "MemAvailable:    5120000 kB\n");
-  root.write("/sys/devices/system/cpu/online", "0-2,7\n");
-}
+struct four_core_host : temp_folder {
+  four_core_host() {
+    write("/proc/stat", stat_after(100));
+    write("/proc/meminfo", "MemTotal:        8192000 kB\n"
+                           "MemFree:          100000 kB\n"
+                           "MemAvailable:    5120000 kB\n");
+    write("/sys/devices/system/cpu/online", "0-2,7\n");
+  }
+};
 
 const host_probe::clock::time_point start{1000s};
 
@@ -45,8 +47,7 @@ const host_probe::clock::time_point start{1000s};
 
 TEST_CASE("a host's memory, cores, disk and architecture are read",
           "[host_probe]") {
-  fixture_root root;
-  make_host(root);
+  four_core_host root;
   host_probe probe{options_for(root)};
   auto host = probe.read(start);
   CHECK(host.cpu.capacity == 4);
@@ -63,8 +64,7 @@ TEST_CASE("a host's memory, cores, disk and architecture are read",
 
 TEST_CASE("CPU use is the rate since a sample of at least a second ago",
           "[host_probe]") {
-  fixture_root root;
-  make_host(root);
+  four_core_host root;
   host_probe probe{options_for(root)};
   CHECK_FALSE(probe.cpu_used(start));
   probe.sample(start);
@@ -77,8 +77,7 @@ TEST_CASE("CPU use is the rate since a sample of at least a second ago",
 
 TEST_CASE("of several samples the newest that is old enough counts",
           "[host_probe]") {
-  fixture_root root;
-  make_host(root);
+  four_core_host root;
   host_probe probe{options_for(root)};
   probe.sample(start);
   root.write("/proc/stat", stat_after(110));
@@ -91,8 +90,7 @@ TEST_CASE("of several samples the newest that is old enough counts",
 
 TEST_CASE("many samples in a row leave one that is a second old",
           "[host_probe]") {
-  fixture_root root;
-  make_host(root);
+  four_core_host root;
   host_probe probe{options_for(root)};
   for (auto at = 0ms; at <= 3000ms; at += 1ms)
     probe.sample(start + at);
@@ -100,8 +98,7 @@ TEST_CASE("many samples in a row leave one that is a second old",
 }
 
 TEST_CASE("a sample of long ago is no base for a rate", "[host_probe]") {
-  fixture_root root;
-  make_host(root);
+  four_core_host root;
   host_probe probe{options_for(root)};
   probe.sample(start);
   CHECK(probe.cpu_used(start + limits::resource::most_sample_age));
@@ -110,8 +107,7 @@ TEST_CASE("a sample of long ago is no base for a rate", "[host_probe]") {
 
 TEST_CASE("without a sample in time the load average tells the CPU's use",
           "[host_probe]") {
-  fixture_root root;
-  make_host(root);
+  four_core_host root;
   root.write("/proc/loadavg", "1.50 0.90 0.40 2/345 6789\n");
   host_probe probe{options_for(root)};
   CHECK(probe.read(start).cpu.used == Approx(1.5));
@@ -124,8 +120,7 @@ TEST_CASE("without a sample in time the load average tells the CPU's use",
 
 TEST_CASE("without a sample what runs right now counts, but for the asker",
           "[host_probe]") {
-  fixture_root root;
-  make_host(root);
+  four_core_host root;
   host_probe probe{options_for(root)};
   root.write("/proc/loadavg", "0.20 0.10 0.05 4/345 6789\n");
   CHECK(probe.load_estimate() == 3);
@@ -134,8 +129,7 @@ TEST_CASE("without a sample what runs right now counts, but for the asker",
 }
 
 TEST_CASE("a load says at most that all cores are in use", "[host_probe]") {
-  fixture_root root;
-  make_host(root);
+  four_core_host root;
   host_probe probe{options_for(root)};
   root.write("/proc/loadavg", "17.03 9.01 4.00 2/345 6789\n");
   CHECK(probe.load_estimate() == 4);
@@ -153,7 +147,7 @@ TEST_CASE("damaged files of /proc give no numbers and no crash",
        {"", "cpu", "cpu 1 2", "cpu a b c d e f g h", "intr 1 2 3 4 5 6 7 8",
         "cpu 99999999999999999999 1 1 1 1 1 1 1"}) {
     CAPTURE(text);
-    fixture_root root;
+    temp_folder root;
     root.write("/proc/stat", text);
     root.write("/proc/loadavg", text);
     root.write("/proc/meminfo", text);
@@ -170,8 +164,7 @@ TEST_CASE("damaged files of /proc give no numbers and no crash",
 
 TEST_CASE("a process that may run on fewer cores offers these",
           "[host_probe]") {
-  fixture_root root;
-  make_host(root);
+  four_core_host root;
   auto options = options_for(root);
   options.affinity_cores = 1;
   CHECK(host_probe{options}.read(start).cpu.capacity == 1);
@@ -179,8 +172,7 @@ TEST_CASE("a process that may run on fewer cores offers these",
 
 TEST_CASE("a cgroup's quota and limit bound what a host offers",
           "[host_probe]") {
-  fixture_root root;
-  make_host(root);
+  four_core_host root;
   SECTION("version 2, the tightest of the ancestors") {
     root.write("/proc/self/cgroup", "0::/robots/node\n");
     root.write("/sys/fs/cgroup/robots/node/cpu.max", "max 100000\n");
@@ -209,8 +201,7 @@ TEST_CASE("a cgroup's quota and limit bound what a host offers",
 }
 
 TEST_CASE("a cgroup without limits bounds nothing", "[host_probe]") {
-  fixture_root root;
-  make_host(root);
+  four_core_host root;
   root.write("/proc/self/cgroup", "0::/a\n4:cpu:/a\n5:memory:/a\nx\n:\n::\n");
   root.write("/sys/fs/cgroup/a/cpu.max", "max 100000\n");
   root.write("/sys/fs/cgroup/cpu/a/cpu.cfs_quota_us", "-1\n");
@@ -224,7 +215,7 @@ TEST_CASE("a cgroup without limits bounds nothing", "[host_probe]") {
 
 TEST_CASE("devices that skills ask for are listed by path, in order",
           "[host_probe]") {
-  fixture_root root;
+  temp_folder root;
   for (const char* file :
        {"/dev/video1", "/dev/video0", "/dev/ttyUSB0", "/dev/ttyACM3",
         "/dev/dri/renderD128", "/dev/dri/card0", "/dev/nvidia0", "/dev/null",
@@ -238,8 +229,7 @@ TEST_CASE("devices that skills ask for are listed by path, in order",
 
 TEST_CASE("a Jetson has unified memory and one GPU without its own",
           "[host_probe]") {
-  fixture_root root;
-  make_host(root);
+  four_core_host root;
   SECTION("by what its device tree is compatible with") {
     root.write("/proc/device-tree/compatible",
                std::string{"nvidia,p3737-0000\0nvidia,tegra234\0", 33});
@@ -260,7 +250,7 @@ TEST_CASE("a Jetson has unified memory and one GPU without its own",
 }
 
 TEST_CASE("a Raspberry Pi is no Jetson", "[host_probe]") {
-  fixture_root root;
+  temp_folder root;
   root.write("/proc/device-tree/compatible",
              std::string{"raspberrypi,5-model-b\0brcm,bcm2712\0", 35});
   root.write("/proc/device-tree/model", "Raspberry Pi 5 Model B Rev 1.0");
@@ -269,7 +259,7 @@ TEST_CASE("a Raspberry Pi is no Jetson", "[host_probe]") {
 
 TEST_CASE("GPUs are read through NVML, but for those that do not answer",
           "[host_probe]") {
-  fixture_root root;
+  temp_folder root;
   auto options = options_for(root);
   options.nvml_library = test::fake_nvml();
   host_probe probe{options};
@@ -283,7 +273,7 @@ TEST_CASE("GPUs are read through NVML, but for those that do not answer",
 
 TEST_CASE("what programs outside our instances use of a GPU is used",
           "[host_probe]") {
-  fixture_root root;
+  temp_folder root;
   auto options = options_for(root);
   options.nvml_library = test::fake_nvml();
   host_probe probe{options};
@@ -306,7 +296,7 @@ TEST_CASE("a library that is not NVML gives no GPUs", "[host_probe]") {
 
 TEST_CASE("a data directory that does not exist yet lies on its parent's disk",
           "[host_probe]") {
-  fixture_root root;
+  temp_folder root;
   auto options = options_for(root);
   auto there = host_probe{options}.read(start).disk_mib.capacity;
   options.data_dir += "/not/yet/there";

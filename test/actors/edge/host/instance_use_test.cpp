@@ -1,5 +1,5 @@
 #include "actors/edge/host/instance_use.hpp"
-#include "host_probe_fixture.hpp"
+#include "test/temp_folder.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -12,7 +12,7 @@ using namespace roscell::test;
 
 namespace {
 
-void add_process(fixture_root& root, int pid, int session,
+void add_process(temp_folder& root, int pid, int session,
                  const std::string& name, long long seconds, long long mib) {
   auto ticks = std::to_string(seconds * sysconf(_SC_CLK_TCK));
   auto pages = std::to_string(mib * 1024 * 1024 / sysconf(_SC_PAGESIZE));
@@ -29,7 +29,7 @@ void add_process(fixture_root& root, int pid, int session,
 
 TEST_CASE("the use of sessions is the sum of their processes' use",
           "[host_probe]") {
-  fixture_root root;
+  temp_folder root;
   add_process(root, 100, 100, "leader", 1, 10);
   add_process(root, 101, 100, "child", 2, 20);
   add_process(root, 200, 200, "other session", 4, 40);
@@ -44,7 +44,7 @@ TEST_CASE("the use of sessions is the sum of their processes' use",
 TEST_CASE("a container's processes are known by their cgroup", "[host_probe]") {
   const std::string ours(64, 'a');
   const std::string other = std::string(63, 'a') + 'b';
-  fixture_root root;
+  temp_folder root;
   int pid = 100;
   for (const auto& path :
        {"/docker/" + ours, "/system.slice/docker-" + ours + ".scope",
@@ -67,14 +67,14 @@ TEST_CASE("a container's processes are known by their cgroup", "[host_probe]") {
 }
 
 TEST_CASE("a process may be called anything", "[host_probe]") {
-  fixture_root root;
+  temp_folder root;
   add_process(root, 100, 100, "a) S 1 1 999 (b", 1, 10);
   CHECK(usage_of({{100}, {}}, root.path()).processes == 1);
   CHECK(usage_of({{999}, {}}, root.path()).processes == 0);
 }
 
 TEST_CASE("a process that ends during the scan is left out", "[host_probe]") {
-  fixture_root root;
+  temp_folder root;
   root.write("/proc/100/stat", "");
   root.write("/proc/101/stat", "101 (x) S 1 101");
   root.write("/proc/102/status", "no stat file");
@@ -98,10 +98,10 @@ constexpr const char* container =
     "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef";
 
 /// A host with a hierarchy of version 2 in its folder.
-struct fake_host : fixture_root {
+struct fake_host : temp_folder {
   fake_host() {
-    write("/proc/self/mountinfo",
-          "30 23 0:26 / " + path() + "/cgroup rw - cgroup2 cgroup2 rw\n");
+    write("/proc/self/mountinfo", "30 23 0:26 / " + path().string()
+                                      + "/cgroup rw - cgroup2 cgroup2 rw\n");
   }
 
   void put(const std::string& cgroup, const std::string& mib) {

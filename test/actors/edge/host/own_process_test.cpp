@@ -1,6 +1,6 @@
 #include "actors/edge/host/own_process.hpp"
-#include "test/actors/edge/host/host_probe_fixture.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
+#include "test/temp_folder.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -13,7 +13,7 @@
 namespace roscell::test {
 
 TEST_CASE("a process's cost is read from the kernel's files", "[own_cost]") {
-  fixture_root folder;
+  temp_folder folder;
   const auto ticks = std::to_string(3 * sysconf(_SC_CLK_TCK));
   folder.write("/stat", "7 (a (b) c) S 1 2 3 4 5 6 7 8 9 10 " + ticks
                             + " 0 0 0 20 0 1 0 " + ticks + "00 4096\n");
@@ -29,15 +29,15 @@ TEST_CASE("a process's cost is read from the kernel's files", "[own_cost]") {
 }
 
 TEST_CASE("what the kernel does not tell costs nothing", "[own_cost]") {
-  const fixture_root folder;
+  const temp_folder folder;
   const auto cost = read_own_cost(folder.path() + "/nobody");
   CHECK(cost.cpu_seconds == 0);
   CHECK(cost.pss_bytes == 0);
 }
 
 TEST_CASE("when the host was booted is the same at each look", "[own_cost]") {
-  fixture_root folder;
-  folder.write("/stat", "cpu  1 2 3 4\nintr 5 6\nbtime 1700000000\nctxt 7\n");
+  temp_folder folder{"/stat",
+                     "cpu  1 2 3 4\nintr 5 6\nbtime 1700000000\nctxt 7\n"};
   CHECK(read_boot_time(folder.path() + "/stat") == 1'700'000'000);
   CHECK(read_boot_time(folder.path() + "/nobody") == 0);
   CHECK(read_boot_time() > 0);
@@ -67,7 +67,7 @@ struct paper_host {
     return this_boot(folder.path());
   }
 
-  own_folder folder;
+  temp_folder folder;
 };
 
 } // namespace

@@ -326,7 +326,7 @@ TEST_CASE("the Unix socket of a living node is not taken, a dead one's is") {
   CHECK(ask(node.local_client(), "/echo").status == 200);
 
   // A copy of the directory entry is what a killed process leaves behind.
-  const auto stale = node.folder.path("stale.sock");
+  const auto stale = node.folder / "stale.sock";
   ::rename(node.socket_path().c_str(), stale.c_str());
   inbox<bool> stopped;
   node.server->stop([&] { stopped.put(true); });
@@ -342,15 +342,15 @@ TEST_CASE("a file that is no socket is left alone") {
   http_fixture node;
   http_server_options options;
   options.port = 0;
-  options.socket_path = node.folder.path("precious");
+  options.socket_path = node.folder / "precious";
   std::ofstream{options.socket_path} << "data";
   CHECK(expect_error(http_server::start(node.io, options)).code
         == error_code::conflict);
   CHECK(std::ifstream{options.socket_path}.good());
-  options.socket_path = node.folder.path(std::string(120, 'x'));
+  options.socket_path = node.folder / std::string(120, 'x');
   CHECK(expect_error(http_server::start(node.io, options)).code
         == error_code::schema_violation);
-  options.socket_path = node.folder.path("no/such/folder");
+  options.socket_path = node.folder / "no/such/folder";
   CHECK(expect_error(http_server::start(node.io, options)).code
         == error_code::internal);
 }

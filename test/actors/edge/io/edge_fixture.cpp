@@ -41,18 +41,6 @@ void settle(io_thread& io) {
     throw std::runtime_error("the io thread hangs");
 }
 
-scratch_folder::scratch_folder() {
-  std::string name = "/tmp/roscell-test-XXXXXX";
-  if (::mkdtemp(name.data()) == nullptr)
-    throw std::runtime_error("cannot make a scratch folder");
-  path_ = name;
-}
-
-scratch_folder::~scratch_folder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
 raw_client::raw_client(uint16_t port, int receive_bytes)
     : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
   if (receive_bytes > 0)

@@ -4,6 +4,7 @@
 #include "actors/edge/http/http_server.hpp"
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/edge/io/io_thread.hpp"
+#include "test/temp_folder.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -59,23 +60,6 @@ private:
 
 /// Waits until everything that was posted to the thread before has run.
 void settle(io_thread& io);
-
-/// A folder that is removed with what is in it.
-class scratch_folder {
-public:
-  scratch_folder();
-  ~scratch_folder();
-
-  scratch_folder(const scratch_folder&) = delete;
-  scratch_folder& operator=(const scratch_folder&) = delete;
-
-  std::string path(const std::string& name) const {
-    return path_ + "/" + name;
-  }
-
-private:
-  std::string path_;
-};
 
 /// A client that sends what no proper client would.
 class raw_client {
@@ -149,10 +133,10 @@ struct http_fixture {
   http_client tcp_client(std::string token = bearer) const;
   http_client local_client() const;
   std::string socket_path() const {
-    return folder.path("node.sock");
+    return folder / "node.sock";
   }
 
-  scratch_folder folder;
+  temp_folder folder;
   inbox<std::string> log;
   inbox<asked> requests; ///< Gets all but `/echo`, which answers at once.
   io_thread io{[this](const std::string& line) { log.put(line); }};

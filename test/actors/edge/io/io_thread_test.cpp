@@ -179,7 +179,7 @@ TEST_CASE("a watch with a pause merges what comes meanwhile") {
 }
 
 TEST_CASE("the last words of a program come before its end") {
-  own_folder folder;
+  temp_folder folder;
   io_thread io;
   const auto path = notify_path(folder.path());
   const auto socket = share(value_of(open_notify_socket(path)));
@@ -203,7 +203,7 @@ TEST_CASE("the last words of a program come before its end") {
 }
 
 TEST_CASE("a folder's watch sees files made, written and renamed") {
-  own_folder folder;
+  temp_folder folder;
   io_thread io;
   inbox<int> seen;
   const auto watch =

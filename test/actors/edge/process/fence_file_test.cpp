@@ -37,7 +37,7 @@ struct made_fence {
     remove_fence(path);
   }
 
-  own_folder folder;
+  temp_folder folder;
   fs::path path = fence_path(folder.path());
 };
 
@@ -57,7 +57,7 @@ TEST_CASE("a fence lies in memory, for its owner alone") {
 }
 
 TEST_CASE("a fence is found again by the folder of its instance") {
-  own_folder folder;
+  temp_folder folder;
   const auto path = fence_path(folder.path() / "i");
   CHECK(path == fence_path(folder.path() / "j" / ".." / "i"));
   CHECK(path != fence_path(folder.path() / "j"));
@@ -105,7 +105,7 @@ TEST_CASE("a fence that was cut is whole again when it is moved on") {
 }
 
 TEST_CASE("no fence is made in a folder that others may write to") {
-  own_folder folder;
+  temp_folder folder;
   ::chmod(folder.path().c_str(), 0777);
   const auto why = make_fence(folder.path() / "fence", 1'000);
   REQUIRE(why);

@@ -20,7 +20,7 @@ std::string lines(int from, int to) {
 } // namespace
 
 TEST_CASE("a log is read on from where the last part ended") {
-  own_folder folder;
+  temp_folder folder;
   const instance_log log{folder.path()};
   folder.write("log.0", "one\n");
   const auto first = log.read_from(0);
@@ -35,7 +35,7 @@ TEST_CASE("a log is read on from where the last part ended") {
 }
 
 TEST_CASE("the files of a log are one text") {
-  own_folder folder;
+  temp_folder folder;
   folder.write("log.0", "abc");
   folder.write("log.3", "def");
   const instance_log log{folder.path()};
@@ -46,23 +46,21 @@ TEST_CASE("the files of a log are one text") {
 }
 
 TEST_CASE("what was dropped is skipped to the oldest that is left") {
-  own_folder folder;
-  folder.write("log.100", "abc");
+  temp_folder folder{"log.100", "abc"};
   const auto part = instance_log{folder.path()}.read_from(7);
   CHECK(part.text == "abc");
   CHECK(part.next_offset == 103);
 }
 
 TEST_CASE("an offset beyond the end is taken back to the end") {
-  own_folder folder;
-  folder.write("log.0", "abc");
+  temp_folder folder{"log.0", "abc"};
   const auto part = instance_log{folder.path()}.read_from(1'000'000'000'000);
   CHECK(part.text.empty());
   CHECK(part.next_offset == 3);
 }
 
 TEST_CASE("parts around a gap are told apart") {
-  own_folder folder;
+  temp_folder folder;
   folder.write("log.0", "abc");
   folder.write("log.10", "def");
   folder.write("exit", "{}");
@@ -77,7 +75,7 @@ TEST_CASE("parts around a gap are told apart") {
 }
 
 TEST_CASE("a part is bounded, and reading all parts gives all bytes") {
-  own_folder folder;
+  temp_folder folder;
   const auto all = lines(0, 30'000);
   folder.write("log.0", all.substr(0, 100'000));
   folder.write("log.100000", all.substr(100'000));
@@ -96,7 +94,7 @@ TEST_CASE("a part is bounded, and reading all parts gives all bytes") {
 TEST_CASE(
     "a part with the times of its lines has so many of them that an answer "
     "can hold them") {
-  own_folder folder;
+  temp_folder folder;
   std::string all;
   for (int i = 0; i < 20'000; ++i)
     all += "a\n";
@@ -118,7 +116,7 @@ TEST_CASE(
 }
 
 TEST_CASE("the tail has the last lines, whatever the files") {
-  own_folder folder;
+  temp_folder folder;
   folder.write("log.0", lines(0, 50));
   folder.write("log." + std::to_string(lines(0, 50).size()), lines(50, 60));
   const instance_log log{folder.path()};
@@ -130,22 +128,19 @@ TEST_CASE("the tail has the last lines, whatever the files") {
 }
 
 TEST_CASE("a last line without newline is a line of the tail") {
-  own_folder folder;
-  folder.write("log.0", "one\ntwo");
+  temp_folder folder{"log.0", "one\ntwo"};
   CHECK(instance_log{folder.path()}.read_tail(1).text == "two");
 }
 
 TEST_CASE("one endless line does not make the tail long") {
-  own_folder folder;
-  folder.write("log.0", std::string(1'000'000, 'x'));
+  temp_folder folder{"log.0", std::string(1'000'000, 'x')};
   const auto part = instance_log{folder.path()}.read_tail(5);
   CHECK(part.text.size() == size_t{limits::log::part_bytes});
   CHECK(part.next_offset == 1'000'000);
 }
 
 TEST_CASE("a log has ended when the exit is recorded and all is read") {
-  own_folder folder;
-  folder.write("log.0", "abc");
+  temp_folder folder{"log.0", "abc"};
   const instance_log log{folder.path()};
   CHECK_FALSE(log.read_from(3).ended);
   folder.write("exit.tmp", "");
@@ -156,7 +151,7 @@ TEST_CASE("a log has ended when the exit is recorded and all is read") {
 }
 
 TEST_CASE("a program that printed nothing has an empty log that ends") {
-  own_folder folder;
+  temp_folder folder;
   const instance_log log{folder.path()};
   CHECK(log.read_tail().text.empty());
   folder.write("exit", "{}");
@@ -164,8 +159,7 @@ TEST_CASE("a program that printed nothing has an empty log that ends") {
 }
 
 TEST_CASE("a character that is half written waits for its other half") {
-  own_folder folder;
-  folder.write("log.0", "a\xE2\x82");
+  temp_folder folder{"log.0", "a\xE2\x82"};
   const instance_log log{folder.path()};
   CHECK(log.read_from(0).text == "a");
   CHECK(log.read_from(0).next_offset == 1);
@@ -177,8 +171,7 @@ TEST_CASE("a character that is half written waits for its other half") {
 }
 
 TEST_CASE("binary output becomes valid text") {
-  own_folder folder;
-  folder.write("log.0", std::string{"\x00\xFF\x80z", 4});
+  temp_folder folder{"log.0", std::string{"\x00\xFF\x80z", 4}};
   const auto part = instance_log{folder.path()}.read_from(0);
   CHECK(part.text == std::string{"\x00\xEF\xBF\xBD\xEF\xBF\xBDz", 8});
   CHECK(from_base64(part.bytes) == std::string{"\x00\xFF\x80z", 4});
@@ -186,7 +179,7 @@ TEST_CASE("binary output becomes valid text") {
 }
 
 TEST_CASE("what is no log file of the shim is not read") {
-  own_folder folder;
+  temp_folder folder;
   folder.write("log.x", "no");
   folder.write("log.-1", "no");
   folder.write("log.", "no");
@@ -227,7 +220,7 @@ std::string bytes_of(const std::vector<time_note>& notes) {
 } // namespace
 
 TEST_CASE("a log tells the times of its lines, across its files") {
-  own_folder folder;
+  temp_folder folder;
   folder.write("log.0", "one\ntwo\n");
   folder.write("log.8", "six\n");
   folder.write("times.0", bytes_of({{0, 10}, {4, 20}}));
@@ -240,8 +233,7 @@ TEST_CASE("a log tells the times of its lines, across its files") {
 }
 
 TEST_CASE("a log without times, or with broken ones, is read nevertheless") {
-  own_folder folder;
-  folder.write("log.0", "one\n");
+  temp_folder folder{"log.0", "one\n"};
   const instance_log log{folder.path()};
   CHECK(log.read_from(0, true).times_unix_ms == times{0});
   folder.write("times.0", "half a note");

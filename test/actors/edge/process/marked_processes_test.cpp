@@ -21,7 +21,7 @@ spawned_program sleeper(const std::string& value) {
 } // namespace
 
 TEST_CASE("a process is found that becomes another program meanwhile") {
-  const own_folder folder;
+  const temp_folder folder;
   const auto value = folder.path().string();
   // Most of its life it is on the way from one program to the next.
   const std::string script = "exec >&- 2>&-; [ $1 = 200 ] && exec sleep 60; "
@@ -36,7 +36,7 @@ TEST_CASE("a process is found that becomes another program meanwhile") {
 
 TEST_CASE("only processes with the very variable are killed") {
   // Unlike that of any other run of this test.
-  const own_folder folder;
+  const temp_folder folder;
   const auto value = folder.path().string();
   const auto marked = sleeper(value);
   const auto other = sleeper(value + "2");

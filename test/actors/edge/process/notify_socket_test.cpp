@@ -18,7 +18,7 @@ using namespace roscell::test;
 namespace fs = std::filesystem;
 
 TEST_CASE("a notify socket takes what programs say and merges it") {
-  own_folder folder;
+  temp_folder folder;
   const auto path = notify_path(folder.path());
   CHECK(path == folder.path() / "notify");
   const auto socket = value_of(open_notify_socket(path));
@@ -33,7 +33,7 @@ TEST_CASE("a notify socket takes what programs say and merges it") {
 }
 
 TEST_CASE("a restarted node takes over the path of a notify socket") {
-  own_folder folder;
+  temp_folder folder;
   const auto path = notify_path(folder.path());
   auto old = value_of(open_notify_socket(path));
   const auto fresh = value_of(open_notify_socket(path));
@@ -43,7 +43,7 @@ TEST_CASE("a restarted node takes over the path of a notify socket") {
 }
 
 TEST_CASE("a path too long for a socket has a short one that stays the same") {
-  own_folder folder;
+  temp_folder folder;
   const auto deep = folder.path() / std::string(90, 'a') / std::string(90, 'b');
   fs::create_directories(deep);
   const auto path = notify_path(deep);
@@ -57,7 +57,7 @@ TEST_CASE("a path too long for a socket has a short one that stays the same") {
 }
 
 TEST_CASE("a folder that others may write to is not trusted") {
-  own_folder folder;
+  temp_folder folder;
   ::chmod(folder.path().c_str(), 0777);
   CHECK(error_of(open_notify_socket(folder.path() / "notify")).code
         == error_code::engine_failed);
@@ -85,7 +85,7 @@ std::string heard_by(const unique_fd& listener) {
 } // namespace
 
 TEST_CASE("a program that listens is told variables, again and again") {
-  own_folder folder;
+  temp_folder folder;
   const auto path = environment_file_of(folder.path() / "notify");
   CHECK(path == folder.path() / "notify.environment");
   make_environment_file(path);
@@ -100,7 +100,7 @@ TEST_CASE("a program that listens is told variables, again and again") {
 }
 
 TEST_CASE("nobody waits for a program that listens and does not read") {
-  own_folder folder;
+  temp_folder folder;
   const auto path = environment_file_of(folder.path() / "notify");
   make_environment_file(path);
   const auto listener = listen_to(path);
@@ -115,7 +115,7 @@ TEST_CASE("nobody waits for a program that listens and does not read") {
 }
 
 TEST_CASE("what a program has put in the place of its file is left alone") {
-  own_folder folder;
+  temp_folder folder;
   const auto path = environment_file_of(folder.path() / "notify");
   std::ofstream{path} << "mine";
   CHECK_FALSE(write_environment_update(path, place));
@@ -123,7 +123,7 @@ TEST_CASE("what a program has put in the place of its file is left alone") {
 }
 
 TEST_CASE("a program that does not listen is told nothing, and that is known") {
-  own_folder folder;
+  temp_folder folder;
   const auto path = environment_file_of(folder.path() / "notify");
   CHECK_FALSE(write_environment_update(path, place));
   make_environment_file(path);
@@ -133,7 +133,7 @@ TEST_CASE("a program that does not listen is told nothing, and that is known") {
 }
 
 TEST_CASE("each start of a program has a file of its own") {
-  own_folder folder;
+  temp_folder folder;
   const auto path = environment_file_of(folder.path() / "notify");
   make_environment_file(path);
   const auto former = listen_to(path);

@@ -42,7 +42,7 @@ int wait_for_code(const spawned_program& x) {
 
 TEST_CASE(
     "a program is started with the environment it is given and no other") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = (folder.path() / "env").string();
   const auto x = value_of(spawn_program(
       shell("/usr/bin/env >" + file + "; exec >&- 2>&-"), patience));
@@ -53,7 +53,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a program inherits no descriptor and no blocked signal") {
-  own_folder folder;
+  temp_folder folder;
   const unique_fd leak{::open("/dev/null", O_RDONLY)};
   sigset_t all;
   sigset_t before;
@@ -127,7 +127,7 @@ TEST_CASE("only a number, a colon and a number name a process") {
 }
 
 TEST_CASE("the records of a shim are read as they are written") {
-  own_folder folder;
+  temp_folder folder;
   CHECK_FALSE(read_pid_record(folder.path()));
   CHECK_FALSE(read_exit_record(folder.path()));
   folder.write("pid", "12 345 13\n");
@@ -158,7 +158,7 @@ TEST_CASE("the records of a shim are read as they are written") {
 }
 
 TEST_CASE("records of anything else are none") {
-  own_folder folder;
+  temp_folder folder;
   for (const std::string text :
        {"", "12 345", "12 345 13 14", "x y z", "-1 2 3"}) {
     folder.write("pid", text);
@@ -216,7 +216,7 @@ pid_t hold_back(const std::string& fifo, int ready) {
 } // namespace
 
 TEST_CASE("a program that not even force ends is waited for no longer") {
-  own_folder folder;
+  temp_folder folder;
   const auto fifo = (folder.path() / "pid").string();
   REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
   int ready[2];

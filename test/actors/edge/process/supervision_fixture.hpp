@@ -2,6 +2,7 @@
 
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/edge/io/unique_fd.hpp"
+#include "test/temp_folder.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -18,40 +19,6 @@
 
 /// Real folders and processes for the edges of supervision.
 namespace roscell::test {
-
-/// A folder that is gone when the test is over.
-class own_folder {
-public:
-  own_folder() {
-    std::string name =
-        std::filesystem::temp_directory_path() / "roscell-XXXXXX";
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path_ = name;
-  }
-
-  ~own_folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-
-  own_folder(const own_folder&) = delete;
-  own_folder& operator=(const own_folder&) = delete;
-
-  const std::filesystem::path& path() const {
-    return path_;
-  }
-
-  std::filesystem::path write(const std::filesystem::path& name,
-                              const std::string& text) const {
-    const auto file = path_ / name;
-    std::filesystem::create_directories(file.parent_path());
-    std::ofstream{file, std::ios::binary} << text;
-    return file;
-  }
-
-private:
-  std::filesystem::path path_;
-};
 
 /// The value, or a failed test that says why there is none.
 template <class T>

@@ -238,18 +238,27 @@ TEST_CASE("garbage in place of frames is refused and does no harm") {
   expect(node.join());
 }
 
-TEST_CASE("a binary frame ends a session") {
-  // Outlives the io thread, which tells it of the end.
-  session_ear ear;
-  acceptor_fixture node{impatient()};
+namespace {
+
+/// The session that a client of a robot has begun, frame by frame.
+auto session_of(acceptor_fixture& node, raw_client& client) {
   joiner_handshake joiner{robot_node, site_token};
-  auto client = open_websocket(node);
   client.send(frame(joiner.hello()));
   const auto challenge = client.read_until("}");
   client.send(
       frame(joiner.receive(challenge.substr(challenge.find('{'))).reply));
   client.read_until("}");
-  const auto session = node.sessions.take();
+  return node.sessions.take();
+}
+
+} // namespace
+
+TEST_CASE("a binary frame ends a session") {
+  // Outlives the io thread, which tells it of the end.
+  session_ear ear;
+  acceptor_fixture node{impatient()};
+  auto client = open_websocket(node);
+  const auto session = session_of(node, client);
   session.link->start(ear.callbacks());
   client.send(frame("text"));
   CHECK(ear.frames.take() == "text");
@@ -263,14 +272,8 @@ TEST_CASE("a peer that disappears is noticed at once") {
   // Outlives the io thread, which tells it of the end.
   session_ear ear;
   acceptor_fixture node;
-  joiner_handshake joiner{robot_node, site_token};
   auto client = open_websocket(node);
-  client.send(frame(joiner.hello()));
-  const auto challenge = client.read_until("}");
-  client.send(
-      frame(joiner.receive(challenge.substr(challenge.find('{'))).reply));
-  client.read_until("}");
-  const auto session = node.sessions.take();
+  const auto session = session_of(node, client);
   session.link->start(ear.callbacks());
   client.close();
   CHECK(ear.ends.take().why == session_end::cause::lost);

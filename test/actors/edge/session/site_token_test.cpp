@@ -30,7 +30,7 @@ const std::string another_token = "fedcba9876543210fedcba9876543210";
 } // namespace
 
 TEST_CASE("a site token is made once, for its owner only") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.path() / "user" / "roscell" / "site.token";
   REQUIRE_FALSE(make_site_token(file));
   CHECK(mode_of(file) == 0600);
@@ -44,7 +44,7 @@ TEST_CASE("a site token is made once, for its owner only") {
 }
 
 TEST_CASE("coordinators that make the site token at one moment agree on one") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.path() / "site.token";
   std::vector<std::future<std::string>> all;
   for (int i = 0; i < 16; ++i)
@@ -61,7 +61,7 @@ TEST_CASE("coordinators that make the site token at one moment agree on one") {
 }
 
 TEST_CASE("where no site token can be made it is told where, and what to do") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.write("file", "") / "site.token";
   const auto why = make_site_token(file);
   REQUIRE(why);
@@ -72,7 +72,7 @@ TEST_CASE("where no site token can be made it is told where, and what to do") {
 }
 
 TEST_CASE("a site token that others may have changed is not taken") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.write("site.token", a_token + "\n");
   CHECK(value_of(read_site_token(file)) == a_token);
   SECTION("they may write to it") {
@@ -91,7 +91,7 @@ TEST_CASE("a site token that others may have changed is not taken") {
 }
 
 TEST_CASE("what is no site token is told as what it is") {
-  own_folder folder;
+  temp_folder folder;
   CHECK(
       error_of(read_site_token(folder.path() / "none")).message.find("No such")
       != std::string::npos);
@@ -121,7 +121,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a node learns of a token that is made or changed later") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.path() / "site.token";
   const auto secret = site_secret::in_file(file);
   const auto copy = secret;
@@ -139,7 +139,7 @@ TEST_CASE("a node learns of a token that is made or changed later") {
 
 TEST_CASE(
     "a file that has gone, or is not to be trusted, takes no token away") {
-  own_folder folder;
+  temp_folder folder;
   const auto file = folder.write("site.token", a_token);
   const auto secret = site_secret::in_file(file);
   CHECK(secret.text() == a_token);

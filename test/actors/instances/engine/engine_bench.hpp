@@ -99,7 +99,7 @@ private:
   event_inbox calls_;
 };
 
-struct engine_bench {
+struct engine_bench : runtime_bench<engine_runtime_actor> {
   engine_bench() {
     config.context = context;
     config.context.events = events = keep_events(system, reported_events);
@@ -114,11 +114,7 @@ struct engine_bench {
     listener = system.spawn([this](handle::pointer) -> handle::behavior_type {
       return {
           [this](const container_exited& x) {
-            reported.put("exit " + x.container + " "
-                         + std::to_string(x.exit_code)
-                         + (x.cause == end_cause::usual
-                                ? ""
-                                : ", " + std::string{to_string(x.cause)}));
+            reported.put("exit " + x.container + " " + text_of_end(x));
           },
           [this](const instance_notified& x) {
             reported.put("says " + x.status);
@@ -154,30 +150,6 @@ struct engine_bench {
                                             config, listener);
   }
 
-  template <class Reply, class Request>
-  caf::expected<Reply> ask(const Request& request) {
-    caf::expected<Reply> result{caf::sec::none};
-    self->request(runtime, patience, request)
-        .receive([&](Reply& x) { result = std::move(x); },
-                 [&](caf::error& why) { result = std::move(why); });
-    return result;
-  }
-
-  template <class Reply, class Request>
-  Reply get(const Request& request) {
-    auto result = ask<Reply>(request);
-    if (!result)
-      FAIL(to_failure(result.error()).message);
-    return std::move(*result);
-  }
-
-  template <class Reply, class Request>
-  failure refusal(const Request& request) {
-    const auto result = ask<Reply>(request);
-    REQUIRE_FALSE(result);
-    return to_failure(result.error());
-  }
-
   prepare_image image(const std::string& instance = "i") const {
     const auto skill = folder.path() / "skill";
     return {instance,
@@ -203,20 +175,9 @@ struct engine_bench {
     script.on("POST /containers/c1/start", 204, "");
   }
 
-  scratch_folder folder;
-  real_time_config system_config;
-  caf::actor_system system{system_config};
-  caf::scoped_actor self{system};
-  actor_context context{std::make_shared<actor_directory>(), {}};
-  io_thread io;
-  event_inbox reported;
-  event_inbox reported_events;
-  event_log_actor events;
   engine_script script;
   std::unique_ptr<fake_engine> engine;
   engine_runtime_config config;
-  container_listener_actor listener;
-  engine_runtime_actor runtime;
 };
 
 } // namespace roscell::test

@@ -327,7 +327,7 @@ struct linked_skill {
     return b.get<image_prepared>(b.image()).image;
   }
 
-  scratch_folder libraries;
+  temp_folder libraries;
   std::filesystem::path library;
   engine_bench b;
 };

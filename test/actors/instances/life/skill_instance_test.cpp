@@ -32,8 +32,7 @@ TEST_CASE("the intent is on disk before anything is started") {
 }
 
 TEST_CASE("an instance goes from intent to running in the order drawn") {
-  instance_bench b;
-  b.start_ready();
+  ready_bench b;
   CHECK(b.reported->states()
         == words{"pending", "building", "starting", "starting", "running"});
   CHECK(b.reported->last().container == "c1");
@@ -113,8 +112,7 @@ TEST_CASE("a program that is not ready in time is ended and its log told") {
 }
 
 TEST_CASE("signs of life keep a program, silence ends it by force at once") {
-  instance_bench b;
-  b.start_ready();
+  ready_bench b;
   for (int i = 0; i < 5; ++i) {
     b.advance(limits::instance::watchdog - 1s);
     b.alive();
@@ -129,8 +127,7 @@ TEST_CASE("signs of life keep a program, silence ends it by force at once") {
 }
 
 TEST_CASE("words that wait at the socket are heard before a skill is judged") {
-  instance_bench b;
-  b.start_ready();
+  ready_bench b;
   b.runtime->words.alive = true;
   b.advance(limits::instance::watchdog + 1s);
   CHECK(b.state() == instance_state::running);
@@ -141,8 +138,7 @@ TEST_CASE("words that wait at the socket are heard before a skill is judged") {
 }
 
 TEST_CASE("a node that was stopped does not take that for a skill's silence") {
-  instance_bench b;
-  b.start_ready();
+  ready_bench b;
   b.jump(30s);
   SECTION("the skill goes on, too: its words come soon") {
     CHECK(b.state() == instance_state::running);
@@ -160,8 +156,7 @@ TEST_CASE("a node that was stopped does not take that for a skill's silence") {
 }
 
 TEST_CASE("a runtime that cannot be asked says nothing about a skill") {
-  instance_bench b;
-  b.start_ready();
+  ready_bench b;
   b.runtime->deaf = true;
   b.advance(60s);
   CHECK(b.state() == instance_state::running);
@@ -208,8 +203,7 @@ TEST_CASE("what a program's end means depends on its state and code") {
 }
 
 TEST_CASE("the end of an earlier container is not this one's") {
-  instance_bench b;
-  b.start_ready();
+  ready_bench b;
   b.exits(1, "c0");
   CHECK(b.state() == instance_state::running);
 }
@@ -237,8 +231,7 @@ TEST_CASE("a stop during the start ends what the start has made") {
 }
 
 TEST_CASE("a stop is polite, and repeated ones are the same stop") {
-  instance_bench b;
-  b.start_ready();
+  ready_bench b;
   b.runtime->stops_never = true;
   b.stop("task ended");
   b.stop("again");
@@ -251,8 +244,7 @@ TEST_CASE("a stop is polite, and repeated ones are the same stop") {
 }
 
 TEST_CASE("a stop that is repeated by force has no more grace") {
-  instance_bench b;
-  b.start_ready();
+  ready_bench b;
   b.runtime->stops_never = true;
   b.stop();
   b.stop_by_force();
@@ -264,8 +256,7 @@ TEST_CASE("a stop that is repeated by force has no more grace") {
 }
 
 TEST_CASE("a program that cannot be ended is told as failed") {
-  instance_bench b;
-  b.start_ready();
+  ready_bench b;
   b.runtime->stop_error = fail(error_code::engine_failed, "it is a zombie");
   b.stop();
   CHECK(b.state() == instance_state::failed);
@@ -291,8 +282,7 @@ TEST_CASE("a program adopted while it starts is running once it says so") {
 }
 
 TEST_CASE("a stop is on disk while it lasts, and a restart carries it on") {
-  instance_bench b;
-  b.start_ready();
+  ready_bench b;
   b.runtime->stops_never = true;
   b.stop();
   CHECK(b.store->states("i").back() == "stopping");
@@ -337,8 +327,7 @@ TEST_CASE("a skill that has gone is told, and nothing is started") {
 }
 
 TEST_CASE("the program outlives the supervisor of its instance") {
-  instance_bench b;
-  b.start_ready();
+  ready_bench b;
   b.kill(b.config.supervisor);
   CHECK(b.runtime->stopped.empty());
 }

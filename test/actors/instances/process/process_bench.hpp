@@ -93,9 +93,57 @@ struct real_time_config : caf::actor_system_config {
   }
 };
 
+/// What an exit is told of as: its code, and its cause unless it is usual.
+inline std::string text_of_end(const container_exited& x) {
+  return std::to_string(x.exit_code)
+         + (x.cause == end_cause::usual
+                ? ""
+                : ", " + std::string{to_string(x.cause)});
+}
+
+/// A runtime in real time, and who asks it.
+template <class Runtime>
+struct runtime_bench {
+  template <class Reply, class Request>
+  caf::expected<Reply> ask(const Request& request) {
+    caf::expected<Reply> result{caf::sec::none};
+    self->request(runtime, patience, request)
+        .receive([&](Reply& x) { result = std::move(x); },
+                 [&](caf::error& why) { result = std::move(why); });
+    return result;
+  }
+
+  template <class Reply, class Request>
+  Reply get(const Request& request) {
+    auto result = ask<Reply>(request);
+    if (!result)
+      FAIL(to_failure(result.error()).message);
+    return std::move(*result);
+  }
+
+  template <class Reply, class Request>
+  failure refusal(const Request& request) {
+    const auto result = ask<Reply>(request);
+    REQUIRE_FALSE(result);
+    return to_failure(result.error());
+  }
+
+  temp_folder folder;
+  real_time_config system_config;
+  caf::actor_system system{system_config};
+  caf::scoped_actor self{system};
+  actor_context context{std::make_shared<actor_directory>(), {}};
+  io_thread io;
+  event_inbox reported;
+  event_inbox reported_events;
+  event_log_actor events;
+  container_listener_actor listener;
+  Runtime runtime;
+};
+
 /// Real processes under a real shim. What is still running at the end is
 /// killed.
-struct process_bench {
+struct process_bench : runtime_bench<process_runtime_actor> {
   process_bench() {
     config.instances_dir = folder.path() / "data" / "instances";
     config.shim =
@@ -108,10 +156,7 @@ struct process_bench {
     listener = system.spawn([this](handle::pointer) -> handle::behavior_type {
       return {
           [this](const container_exited& x) {
-            reported.put("exit " + std::to_string(x.exit_code)
-                         + (x.cause == end_cause::usual
-                                ? ""
-                                : ", " + std::string{to_string(x.cause)}));
+            reported.put("exit " + text_of_end(x));
           },
           [this](const instance_notified& x) {
             if (x.ready)
@@ -149,23 +194,6 @@ struct process_bench {
                                             config, listener);
   }
 
-  template <class Reply, class Request>
-  caf::expected<Reply> ask(const Request& request) {
-    caf::expected<Reply> result{caf::sec::none};
-    self->request(runtime, patience, request)
-        .receive([&](Reply& x) { result = std::move(x); },
-                 [&](caf::error& why) { result = std::move(why); });
-    return result;
-  }
-
-  template <class Reply, class Request>
-  Reply get(const Request& request) {
-    auto result = ask<Reply>(request);
-    if (!result)
-      FAIL(to_failure(result.error()).message);
-    return std::move(*result);
-  }
-
   /// Runs a shell script as the skill's program.
   std::string start(const std::string& script,
                     const std::string& instance = "i",
@@ -190,18 +218,7 @@ struct process_bench {
     return get<log_excerpt>(query);
   }
 
-  scratch_folder folder;
-  real_time_config system_config;
-  caf::actor_system system{system_config};
-  caf::scoped_actor self{system};
-  actor_context context{std::make_shared<actor_directory>(), {}};
-  io_thread io;
-  event_inbox reported;
-  event_inbox reported_events;
   process_runtime_config config;
-  event_log_actor events;
-  container_listener_actor listener;
-  process_runtime_actor runtime;
   std::vector<std::string> instances;
 };
 

@@ -41,7 +41,7 @@ TEST_CASE("what is not of our engine, or has no topics, is not looked for") {
   CHECK_FALSE(engine_ends(spec, counted));
 }
 
-// test/ros2/names_test.cpp says the same of the engine.
+// test/ros2/participant_config_test.cpp says the same of the engine.
 TEST_CASE("an instance has the name that the engine gives its participant") {
   CHECK(ros_name("poses") == "poses");
   CHECK(ros_name("7up") == "_7up");

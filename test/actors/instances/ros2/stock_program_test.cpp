@@ -73,7 +73,7 @@ struct stock_bench : virtual_time {
     return reported->last().state;
   }
 
-  scratch_folder folder;
+  temp_folder folder;
   std::shared_ptr<ros_graph> graph = std::make_shared<ros_graph>();
   graph_watch_actor watch;
   std::shared_ptr<reported_changes> reported =

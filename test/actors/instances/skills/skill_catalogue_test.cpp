@@ -21,12 +21,12 @@ std::string with(const std::string& part, const std::string& other) {
 }
 
 /// A folder that is a skill.
-void write_echo(const scratch_folder& folder, const std::string& name) {
+void write_echo(const temp_folder& folder, const std::string& name) {
   folder.write(name + "/skill.json", echo_descriptor());
   folder.write(name + "/bin/echo", "#!/bin/sh\n", true);
 }
 
-skill_catalogue scan(const scratch_folder& folder) {
+skill_catalogue scan(const temp_folder& folder) {
   return skill_catalogue::scan({folder.path()});
 }
 
@@ -43,7 +43,7 @@ TEST_CASE("a folder with a valid descriptor is a skill, found by its hash") {
 }
 
 TEST_CASE("a folder without a descriptor is none of our business") {
-  scratch_folder folder;
+  temp_folder folder;
   folder.write("notes/readme.txt", "no skill");
   folder.write("skill.json", echo_descriptor());
   const auto skills = scan(folder);
@@ -52,7 +52,7 @@ TEST_CASE("a folder without a descriptor is none of our business") {
 }
 
 TEST_CASE("a bad descriptor is left out alone, with file and pointer") {
-  scratch_folder folder;
+  temp_folder folder;
   write_echo(folder, "good");
   std::string where;
   SECTION("not JSON") {
@@ -91,7 +91,7 @@ TEST_CASE("a bad descriptor is left out alone, with file and pointer") {
 }
 
 TEST_CASE("a descriptor in YAML, with comments, is a skill like any other") {
-  scratch_folder folder;
+  temp_folder folder;
   const auto* const name = GENERATE("skill.yaml", "skill.yml");
   folder.write(std::string{"echo/"} + name,
                "# What it does.\n" + echo_descriptor());
@@ -103,7 +103,7 @@ TEST_CASE("a descriptor in YAML, with comments, is a skill like any other") {
 }
 
 TEST_CASE("an error in a descriptor is told with line and column") {
-  scratch_folder folder;
+  temp_folder folder;
   folder.write("bad/skill.yaml",
                "# Its name is missing.\n" + with("\"plain\"", "7"));
   folder.write("bad/bin/echo", "#!/bin/sh\n", true);
@@ -117,7 +117,7 @@ TEST_CASE("an error in a descriptor is told with line and column") {
 }
 
 TEST_CASE("a folder with two descriptors is refused: which is meant?") {
-  scratch_folder folder;
+  temp_folder folder;
   write_echo(folder, "echo");
   folder.write("echo/skill.yaml", echo_descriptor());
   const auto skills = scan(folder);
@@ -129,7 +129,7 @@ TEST_CASE("a folder with two descriptors is refused: which is meant?") {
 }
 
 TEST_CASE("a descriptor of many errors is told of in bounded length") {
-  scratch_folder folder;
+  temp_folder folder;
   std::string texts;
   for (int i = 0; i < 60; ++i)
     texts += std::string{i == 0 ? "" : ","} + "\"\"";
@@ -138,7 +138,7 @@ TEST_CASE("a descriptor of many errors is told of in bounded length") {
 }
 
 TEST_CASE("the same content elsewhere is the same skill") {
-  scratch_folder folder;
+  temp_folder folder;
   write_echo(folder, "one");
   write_echo(folder, "two");
   const auto skills = scan(folder);
@@ -147,7 +147,7 @@ TEST_CASE("the same content elsewhere is the same skill") {
 }
 
 TEST_CASE("a skill that cannot be hashed is left out") {
-  scratch_folder folder;
+  temp_folder folder;
   write_echo(folder, "bad");
   fs::create_symlink("/etc/passwd", folder.path() / "bad/model");
   const auto skills = scan(folder);
@@ -162,7 +162,7 @@ TEST_CASE("a skill directory that cannot be read is told of") {
 }
 
 TEST_CASE("a skill whose program cannot be run is refused, with the remedy") {
-  scratch_folder folder;
+  temp_folder folder;
   write_echo(folder, "good");
   folder.write("bad/skill.json", echo_descriptor());
   std::string remedy = "build the skill";
@@ -185,8 +185,7 @@ TEST_CASE("a skill whose program cannot be run is refused, with the remedy") {
 
 TEST_CASE("a program for another machine is refused, an own one tells for what "
           "it is built") {
-  scratch_folder folder;
-  folder.write("see/skill.json", echo_descriptor());
+  temp_folder folder{"see/skill.json", echo_descriptor()};
   // The header of a program, up to what says which machine it is for.
   std::string header("\177ELF\2\1\1\0\0\0\0\0\0\0\0\0\2\0", 18);
   header += std::string("\xB7\0\1\0\0\0", 6);
@@ -202,8 +201,8 @@ TEST_CASE("a program for another machine is refused, an own one tells for what "
 }
 
 TEST_CASE("a program that no deployment is for is refused") {
-  scratch_folder folder;
-  folder.write("see/skill.json", with("[\"amd64\", \"arm64\"]", "[\"arm64\"]"));
+  temp_folder folder{"see/skill.json",
+                     with("[\"amd64\", \"arm64\"]", "[\"arm64\"]")};
   std::string header("\177ELF\2\1\1\0\0\0\0\0\0\0\0\0\2\0", 18);
   header += std::string("\x3E\0\1\0\0\0", 6);
   folder.write("see/bin/echo", header, true);
@@ -214,7 +213,7 @@ TEST_CASE("a program that no deployment is for is refused") {
 }
 
 TEST_CASE("a program that lacks a library is refused, with its name") {
-  scratch_folder folder;
+  temp_folder folder;
   write_echo(folder, "see");
   fs::copy_file(test::lacking_program(), folder.path() / "see/bin/echo",
                 fs::copy_options::overwrite_existing);
@@ -229,7 +228,7 @@ TEST_CASE("a program that lacks a library is refused, with its name") {
 }
 
 TEST_CASE("what starts a program must be there where it runs as a process") {
-  scratch_folder folder;
+  temp_folder folder;
   folder.write("see/skill.json", echo_descriptor());
   folder.write("see/bin/echo", "#! /no/such/python -u\n", true);
   CHECK(scan(folder).skills().size() == 1);
@@ -241,8 +240,8 @@ TEST_CASE("what starts a program must be there where it runs as a process") {
 }
 
 TEST_CASE("of one folder everything that is wrong is told at once") {
-  scratch_folder folder;
-  folder.write("bad/skill.json", with("\"cpu\": 0.1", "\"cpu\": \"much\""));
+  temp_folder folder{"bad/skill.json",
+                     with("\"cpu\": 0.1", "\"cpu\": \"much\"")};
   const auto bad =
       skill_catalogue::of_folder(folder.path() / "bad", {own_architecture()});
   REQUIRE(bad.problems().size() == 2);
@@ -257,7 +256,7 @@ TEST_CASE("of one folder everything that is wrong is told at once") {
 }
 
 TEST_CASE("a version is the author's, else the sources', else the build's") {
-  scratch_folder folder;
+  temp_folder folder;
   write_echo(folder, "echo");
   const auto version = [&] { return scan(folder).skills().at(0).version; };
   CHECK(version() == scan(folder).skills().at(0).hash);
@@ -272,7 +271,7 @@ TEST_CASE("a version is the author's, else the sources', else the build's") {
 }
 
 TEST_CASE("a build tells when its folder changed last") {
-  scratch_folder folder;
+  temp_folder folder;
   write_echo(folder, "echo");
   const auto before = scan(folder).skills().at(0).added_unix_ms;
   CHECK(before > 1'600'000'000'000);
@@ -282,7 +281,7 @@ TEST_CASE("a build tells when its folder changed last") {
 }
 
 TEST_CASE("what is told of problems to others is bounded") {
-  scratch_folder folder;
+  temp_folder folder;
   for (int i = 0; i < 40; ++i)
     folder.write("bad" + std::to_string(i) + "/skill.json", "{");
   CHECK(scan(folder).published_problems().size() == 32);

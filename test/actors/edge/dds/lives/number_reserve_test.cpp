@@ -1,7 +1,7 @@
 #include "actors/edge/dds/lives/number_reserve.hpp"
 #include "actors/edge/dds/rtps/discovery_wire.hpp"
 #include "actors/edge/dds/rtps/rtps_messages.hpp"
-#include "test/actors/edge/io/edge_fixture.hpp"
+#include "test/temp_folder.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -10,11 +10,11 @@
 #include <vector>
 
 using namespace roscell;
-using namespace roscell::test::wire;
+using namespace roscell::test;
 
 TEST_CASE("no number of an earlier life is used again, however it ended") {
-  const scratch_folder folder;
-  const auto file = std::string{folder.path("numbers")};
+  const temp_folder folder;
+  const auto file = folder / "numbers";
   const auto used = GENERATE(
       std::int64_t{0}, number_reserve::sequence_block / 2,
       number_reserve::sequence_block, 3 * number_reserve::sequence_block);
@@ -42,8 +42,8 @@ TEST_CASE("servers of one process share no numbers either") {
 }
 
 TEST_CASE("counts outlast the block that was set aside") {
-  const scratch_folder folder;
-  const auto file = std::string{folder.path("numbers")};
+  const temp_folder folder;
+  const auto file = folder / "numbers";
   std::uint32_t last = 0;
   {
     number_reserve numbers{file};
@@ -57,8 +57,8 @@ TEST_CASE("counts outlast the block that was set aside") {
 }
 
 TEST_CASE("where nothing is known of earlier lives numbers begin far above 1") {
-  const scratch_folder folder;
-  const auto file = std::string{folder.path("numbers")};
+  const temp_folder folder;
+  const auto file = folder / "numbers";
   const std::string text = GENERATE("", "-1 7", "x", "1 99999999999999999999");
   std::ofstream{file} << text;
   number_reserve numbers{file};
@@ -67,8 +67,8 @@ TEST_CASE("where nothing is known of earlier lives numbers begin far above 1") {
 }
 
 TEST_CASE("numbers of a new node begin where those who hear it soon are") {
-  const scratch_folder folder;
-  const auto file = std::string{folder.path("numbers")};
+  const temp_folder folder;
+  const auto file = folder / "numbers";
   number_reserve numbers{file, {}, number_reserve::former_lives::few};
   const auto begin = numbers.begin_life();
   CHECK(begin > 1000);
