@@ -75,7 +75,7 @@ test_a_killed_member_is_noticed_by_its_connection() {
   stop_node arm KILL
   await head '.event == "node_lost" and .subject == "arm"' > "$scratch/lost.json"
   expect "the reason" "$(jq -r .data.reason "$scratch/lost.json" \
-    | grep -c 'silent')" 0
+    | grep -c 'no heartbeat')" 0
   expect "the row" "$(row_state head arm)" lost
 }
 
@@ -84,7 +84,7 @@ test_a_stopped_member_is_lost_within_its_lease_and_comes_back_as_the_same() {
   uuid=$(get head /v1/cell | jq -r '.nodes[] | select(.identity.name == "arm") | .identity.uuid')
   kill -STOP "${pid[arm]}"
   await head '.event == "node_lost" and .subject == "arm"' > "$scratch/lost.json"
-  grep -q silent "$scratch/lost.json" || fail "the reason does not say silent"
+  grep -q "no heartbeat" "$scratch/lost.json" || fail "the reason says nothing of heartbeats"
   kill -CONT "${pid[arm]}"
   await_joined head arm "$(jq .sequence "$scratch/lost.json")"
   expect "the UUID" "$(get head /v1/cell \
