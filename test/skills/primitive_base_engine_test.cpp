@@ -269,13 +269,13 @@ TEST_CASE_METHOD(fixture,
 TEST_CASE_METHOD(fixture, "a frame that is kept for another counts when it is "
                           "worked on") {
   env.model = "join";
-  env.inputs = {{"finite", "50", "image"}, {"finite", "50", "info"}};
+  env.inputs = {{"finite", "3", "image"}, {"finite", "3", "info"}};
   CHECK(run() == exit_code::done);
   const auto emitted = std::count(log.text.begin(), log.text.end(), ' ') - 1;
   CAPTURE(log.text);
   CHECK(emitted >= 1);
   CHECK_THAT(frames,
-             StartsWith("input:0 50 " + std::to_string(emitted) + " 0 "));
+             StartsWith("input:0 3 " + std::to_string(emitted) + " 0 "));
 }
 
 TEST_CASE_METHOD(fixture, "failures of several inputs are not added up") {
