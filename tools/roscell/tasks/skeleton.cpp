@@ -128,9 +128,8 @@ private:
 
   std::string input_text(const port_description& port, task_step& step,
                          bool joined) const {
-    const auto takes = "    # takes "
-                       + roscell::cli::joined(port.data_types, ", ") + " by "
-                       + roscell::cli::joined(port.protocols, ", ") + "\n";
+    const auto takes = "    # takes " + roscell::joined(port.data_types, ", ")
+                       + " by " + roscell::joined(port.protocols, ", ") + "\n";
     if (joined)
       return takes + "    input: {from: " + steps_.back().id + "}\n";
     const auto path = task_ + "/" + step.id + "_input";

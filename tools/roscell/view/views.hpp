@@ -20,9 +20,6 @@ struct view_style {
   int64_t now_unix_ms = 0;
 };
 
-/// "coordinator", and "member" for a node that has one.
-std::string role_text(node_role role);
-
 std::string node_view(const node_description& node, const view_style& style);
 
 /// The part of a status that only a coordinator can tell.
@@ -31,6 +28,40 @@ std::string cell_summary(const cell_description& cell, const view_style& style);
 /// The actors of a node with their counters, as a tree of who spawned whom.
 std::string actors_view(const std::vector<actor_row>& actors,
                         const view_style& style);
+
+/// Those of these columns, as they are wanted here.
+template <class Row>
+column_list<Row> picked(const column_list<Row>& all,
+                        const std::vector<column>& wanted) {
+  column_list<Row> result;
+  for (const auto& x : wanted)
+    for (const auto& known : all)
+      if (known.what.name == x.name)
+        result.push_back({x, known.of});
+  return result;
+}
+
+/// A table of these things.
+template <class Row>
+table table_of(const column_list<Row>& columns, const std::vector<Row>& rows,
+               const view_style& style) {
+  table result;
+  for (const auto& x : columns)
+    result.columns.push_back(x.what);
+  for (const auto& row : rows) {
+    auto& to = result.rows.emplace_back();
+    for (const auto& x : columns)
+      to.push_back(x.of(row, style.now_unix_ms));
+  }
+  return result;
+}
+
+/// A table, or "no tasks".
+std::string or_nothing(const table& t, const char* what,
+                       const view_style& style);
+
+/// The nodes of a cell, then those that are in none.
+table nodes_table(const cell_description& cell, const view_style& style);
 
 std::string cells_view(const cell_list& cells, const view_style& style);
 

@@ -1,8 +1,8 @@
 #include "tools/roscell/doctor/node/instance_findings.hpp"
 
+#include "client/instance_text.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/instance_text.hpp"
 
 #include <algorithm>
 

@@ -1,11 +1,12 @@
 #include "tools/roscell/view/describe/things.hpp"
 
+#include "client/columns.hpp"
+#include "client/instance_text.hpp"
 #include "messages/event_kinds.hpp"
 #include "tools/roscell/view/describe/page.hpp"
 #include "tools/roscell/view/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/graph/task_graph.hpp"
-#include "tools/roscell/view/instance_text.hpp"
 #include "tools/roscell/view/task_replies.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "tools/roscell/view/graph/graph_view.hpp"
 
+#include "client/instance_text.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/graph/drawing.hpp"
-#include "tools/roscell/view/instance_text.hpp"
 
 #include <utility>
 

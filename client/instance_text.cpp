@@ -1,18 +1,12 @@
-#include "tools/roscell/view/instance_text.hpp"
+#include "client/instance_text.hpp"
 
-#include "tools/roscell/view/format.hpp"
+#include "client/value_text.hpp"
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
-namespace roscell::cli {
-
-std::string or_nothing(const table& t, const char* what,
-                       const view_style& style) {
-  return t.rows.empty() ? std::string{"no "} + what + "\n"
-                        : t.render(style.text);
-}
+namespace roscell {
 
 bool is_unknown(const instance_row& row) {
   return row.unknown_since_unix_ms != 0;
@@ -32,10 +26,10 @@ bool runs_well(const instance_row& row) {
          && row.health == instance_health::good && row.metrics.remark.empty();
 }
 
-std::string since_text(const instance_row& row, const view_style& style) {
+std::string since_text(const instance_row& row, int64_t now_unix_ms) {
   return format_since(is_unknown(row) ? row.unknown_since_unix_ms
                                       : row.since_unix_ms,
-                      style.now_unix_ms);
+                      now_unix_ms);
 }
 
 std::string not_stop_safe_text(const instance_row& row, int64_t now_unix_ms) {
@@ -161,4 +155,4 @@ std::string count_text(int64_t count) {
   return count < 0 ? "" : std::to_string(count);
 }
 
-} // namespace roscell::cli
+} // namespace roscell

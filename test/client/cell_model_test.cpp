@@ -1,12 +1,8 @@
 #include "client/cell_model.hpp"
 
-#include "tools/roscell/top/viewer.hpp"
-
 #include <catch2/catch.hpp>
 
 using namespace roscell;
-using namespace roscell::cli;
-using namespace roscell::cli::top;
 
 namespace {
 
@@ -62,7 +58,7 @@ const instance_row& only_row(const cell_model& x) {
 
 } // namespace
 
-TEST_CASE("an event changes the state of an instance at once", "[top]") {
+TEST_CASE("an event changes the state of an instance at once", "[client]") {
   auto x = begun_model();
   const auto asks =
       x.add(changed(R"({"task":"t","node":"arm","state":"backing_off",)"
@@ -78,21 +74,22 @@ TEST_CASE("an event changes the state of an instance at once", "[top]") {
 }
 
 TEST_CASE("what a coordinator will tell again with the node is skipped",
-          "[top]") {
+          "[client]") {
   auto x = begun_model();
   x.add(changed(R"({"task":"t","state":"failed"})"));
   CHECK(only_row(x).state == instance_state::running);
 }
 
 TEST_CASE("a state of a newer version, or data that are none, change nothing",
-          "[top]") {
+          "[client]") {
   auto x = begun_model();
   x.add(changed(R"({"node":"arm","state":"dreaming"})"));
   x.add(changed("none"));
   CHECK(only_row(x).state == instance_state::running);
 }
 
-TEST_CASE("a lost node is shown as lost at once, with what it ran", "[top]") {
+TEST_CASE("a lost node is shown as lost at once, with what it ran",
+          "[client]") {
   auto x = begun_model();
   auto reported = running_row("i", "arm");
   reported.metrics = {7, 2.5, 0, 1.5};
@@ -110,7 +107,7 @@ TEST_CASE("a lost node is shown as lost at once, with what it ran", "[top]") {
         == "node arm lost 2s: no heartbeats");
 }
 
-TEST_CASE("metrics outlive the next answer about the cell", "[top]") {
+TEST_CASE("metrics outlive the next answer about the cell", "[client]") {
   auto x = begun_model();
   auto reported = running_row("i", "arm");
   reported.metrics.rate_hz = 29.9;
@@ -120,7 +117,7 @@ TEST_CASE("metrics outlive the next answer about the cell", "[top]") {
 }
 
 TEST_CASE("only events after which the cell is another one ask for it",
-          "[top]") {
+          "[client]") {
   auto x = begun_model();
   CHECK_FALSE(x.add({1, 0, "request_refused", "task_request", ""}).any());
   CHECK_FALSE(x.add({2, 0, "image_building", "i", ""}).any());
@@ -129,7 +126,7 @@ TEST_CASE("only events after which the cell is another one ask for it",
   CHECK_FALSE(x.add({5, 0, "task_accepted", "t", ""}).skills);
 }
 
-TEST_CASE("of the events that fit one the first entry counts", "[top]") {
+TEST_CASE("of the events that fit one the first entry counts", "[client]") {
   using answers = std::vector<std::string>;
   CHECK(stale_after("node_joined") == answers{"cell", "cells", "skills"});
   CHECK(stale_after("node_renamed") == answers{"cell"});
@@ -138,7 +135,7 @@ TEST_CASE("of the events that fit one the first entry counts", "[top]") {
 }
 
 TEST_CASE("what was known stays when the node is away, since when it is",
-          "[top]") {
+          "[client]") {
   auto x = begun_model();
   x.lose("cannot connect", 2000);
   x.lose("still not", 3000);
@@ -152,7 +149,7 @@ TEST_CASE("what was known stays when the node is away, since when it is",
 }
 
 TEST_CASE("a question without an answer is told until one is answered",
-          "[top]") {
+          "[client]") {
   auto x = begun_model();
   x.miss("no answer in time");
   CHECK(x.connection().live);
@@ -161,7 +158,7 @@ TEST_CASE("a question without an answer is told until one is answered",
   CHECK(x.connection().problem.empty());
 }
 
-TEST_CASE("the newest events are kept, and no more than that", "[top]") {
+TEST_CASE("the newest events are kept, and no more than that", "[client]") {
   cell_model x;
   std::vector<event> kept(cell_model::most_events + 5);
   kept.back().sequence = 42;
@@ -173,12 +170,12 @@ TEST_CASE("the newest events are kept, and no more than that", "[top]") {
   CHECK(x.known().events.back().sequence == 3 * cell_model::most_events - 1);
 }
 
-TEST_CASE("a cell in which all runs has no problems", "[top]") {
+TEST_CASE("a cell in which all runs has no problems", "[client]") {
   CHECK(problems_of(begun_model().known(), 9000).empty());
 }
 
 TEST_CASE("an instance that does not run well is a problem with its reason",
-          "[top]") {
+          "[client]") {
   auto x = begun_model();
   x.add(changed(R"({"node":"arm","state":"failed","reason":"exit code 7"})"));
   const auto problems = problems_of(x.known(), 9000);

@@ -1,18 +1,13 @@
 #pragma once
 
+#include "messages/cell.hpp"
 #include "messages/step_end.hpp"
-#include "tools/roscell/view/table.hpp"
-#include "tools/roscell/view/views.hpp"
 
 #include <cstdint>
 #include <string>
 
 /// What several tables say of an instance, each in a cell.
-namespace roscell::cli {
-
-/// A table, or "no tasks".
-std::string or_nothing(const table& t, const char* what,
-                       const view_style& style);
+namespace roscell {
 
 /// Its node is away, so nobody knows what has become of it.
 bool is_unknown(const instance_row& row);
@@ -25,7 +20,7 @@ std::string state_text(const instance_row& row);
 bool runs_well(const instance_row& row);
 
 /// For how long it has been so, or has not been known.
-std::string since_text(const instance_row& row, const view_style& style);
+std::string since_text(const instance_row& row, int64_t now_unix_ms);
 
 /// "waits to be stop-safe, 12 s; it ends in 48 s all the same".
 std::string not_stop_safe_text(const instance_row& row, int64_t now_unix_ms);
@@ -56,4 +51,4 @@ bool takes_too_much(const instance_row& row);
 std::string number_with_unit(double value, int decimals, const char* unit);
 std::string count_text(int64_t count);
 
-} // namespace roscell::cli
+} // namespace roscell
