@@ -46,7 +46,7 @@ TEST_CASE("a message without a type is refused at the place where it belongs") {
   CHECK(refusal({{"type", 7}}).message.find("got the number 7")
         != std::string::npos);
   CHECK(refusal(json::array({1})).where.empty());
-  CHECK(refusal(nullptr).code == error_code::schema_violation);
+  CHECK(refusal(json(nullptr)).code == error_code::schema_violation);
 }
 
 TEST_CASE("an unknown type is refused with the nearest known one") {

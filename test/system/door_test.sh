@@ -83,7 +83,7 @@ test_another_user_of_this_host_comes_into_no_cell() {
 expect_nothing() {
   local at
   at=$(get "$1" /v1/node | jq -r .identity.address)
-  "${@:2}" /usr/bin/python3 "$scratch/stranger.py" "$at" "$scratch/$1/node.sock" \
+  "${@:2}" /usr/bin/python3 "$scratch/unauthenticated_peer.py" "$at" "$scratch/$1/node.sock" \
     > "$scratch/got" || fail "the stranger: $(cat "$scratch/got")"
   expect "what it gets of $1" "$(jq -r '"\(.tried): \(.got)"' "$scratch/got")" \
     "session: ${session_of[$1]}

@@ -112,7 +112,7 @@ test_doctor_names_each_thing_that_keeps_nodes_apart() {
   has_found ok "head reaches arm, belt"
 }
 
-test_doctor_tells_sessions_and_beats_from_each_other() {
+test_doctor_tells_sessions_and_heartbeats_from_each_other() {
   start_hosts
   local port
   port=$(get arm /v1/node | jq -r '.identity.address | split(":")[1]')
@@ -122,7 +122,7 @@ test_doctor_tells_sessions_and_beats_from_each_other() {
     | jq -r '.identity.address | split(":")[1]') drop"
   cell_doctor reach && fail "it is content: $(cat "$scratch/found")"
   has_found broken "head -> arm: sessions by tcp port $port: nothing comes back"
-  has_found warning "arm -> belt: beats by udp port"
+  has_found warning "arm -> belt: heartbeats by udp port"
   has_found ok "belt reaches arm, head"
 }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A program without the site token tries every door of a node, as it did when an
 empty token was proof enough. Prints a line of JSON for each: what it tried, and
-what it got. Usage: stranger.py ADDRESS:PORT SOCKET
+what it got. Usage: unauthenticated_peer.py ADDRESS:PORT SOCKET
 """
 
 import base64

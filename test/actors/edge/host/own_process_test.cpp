@@ -1,5 +1,4 @@
 #include "actors/edge/host/own_process.hpp"
-#include "test/actors/edge/process/supervision_fixture.hpp"
 #include "test/temp_folder.hpp"
 
 #include <catch2/catch.hpp>
@@ -7,6 +6,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -30,7 +30,7 @@ TEST_CASE("a process's cost is read from the kernel's files", "[own_cost]") {
 
 TEST_CASE("what the kernel does not tell costs nothing", "[own_cost]") {
   const temp_folder folder;
-  const auto cost = read_own_cost(folder.path() + "/nobody");
+  const auto cost = read_own_cost(folder / "nobody");
   CHECK(cost.cpu_seconds == 0);
   CHECK(cost.pss_bytes == 0);
 }
@@ -38,8 +38,8 @@ TEST_CASE("what the kernel does not tell costs nothing", "[own_cost]") {
 TEST_CASE("when the host was booted is the same at each look", "[own_cost]") {
   temp_folder folder{"/stat",
                      "cpu  1 2 3 4\nintr 5 6\nbtime 1700000000\nctxt 7\n"};
-  CHECK(read_boot_time(folder.path() + "/stat") == 1'700'000'000);
-  CHECK(read_boot_time(folder.path() + "/nobody") == 0);
+  CHECK(read_boot_time(folder / "stat") == 1'700'000'000);
+  CHECK(read_boot_time(folder / "nobody") == 0);
   CHECK(read_boot_time() > 0);
   CHECK(read_boot_time() == read_boot_time());
 }
@@ -117,16 +117,12 @@ namespace fs = std::filesystem;
 namespace {
 
 struct prefix {
-  fs::path root = fs::temp_directory_path()
-                  / ("roscell-installed-" + std::to_string(getpid()));
+  test::temp_folder folder;
+  const fs::path root = folder.path();
+
   prefix() {
     fs::create_directories(root / "bin");
   }
-  ~prefix() {
-    fs::remove_all(root);
-  }
-  prefix(const prefix&) = delete;
-  prefix& operator=(const prefix&) = delete;
 };
 
 } // namespace
