@@ -75,9 +75,9 @@ TEST_CASE("two nodes of one program cannot share a data directory") {
 TEST_CASE("several nodes live in one program, each with its own cell") {
   temp_folder one;
   temp_folder two;
-  auto other = setup_in(two.path);
+  auto other = setup_in(two.path());
   other.node.name = "other";
-  embedded_node first{setup_in(one.path)};
+  embedded_node first{setup_in(one.path())};
   embedded_node second{other};
   CHECK(asker{first}.ask({{"type", "node_query"}}).at("cell") == "controller");
   CHECK(asker{second}.ask({{"type", "node_query"}}).at("cell") == "other");
