@@ -1,4 +1,4 @@
-#include "tools/roscell/doctor/node/instance_findings.hpp"
+#include "tools/roscell/doctor/node/node_checks.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -38,4 +38,8 @@ uint64_t parse_bytes(std::string_view text);
 /// std::invalid_argument for anything else, for zero, and for more than a day.
 std::chrono::milliseconds parse_duration(std::string_view text);
 
+/// Seconds of "90s", "5m", "2h" or "7d", at most a hundred years. Throws
+/// std::invalid_argument for anything else.
+std::chrono::seconds parse_span(std::string_view text);
+
 } // namespace roscell::cli

@@ -1,6 +1,5 @@
 #include "tools/roscell/view/table.hpp"
 
-#include "tools/roscell/view/fitted_columns.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <algorithm>

@@ -1,13 +1,16 @@
 #pragma once
 
 #include "messages/cell.hpp"
+#include "messages/codec/json_codec.hpp"
 #include "messages/node.hpp"
 #include "messages/skill.hpp"
 #include "messages/task.hpp"
 #include "tools/roscell/view/table.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// The replies of a node as text for people. `now_unix_ms` is the time that
@@ -78,5 +81,20 @@ std::string instances_view(const instance_description& instances,
 std::string instance_view(const instance_description& instances,
                           const view_style& style);
 std::string skills_view(const skill_list& skills, const view_style& style);
+
+// The JSON that the command line prints (docs/output/): one shape for one
+// thing, whichever command prints it and wherever in a document it stands.
+
+/// What a node tells of a thing, as programs get it: with its `name`; times as
+/// ISO 8601 in UTC, `since` instead of `since_unix_ms`, null where they are not
+/// known; ends of a stream always as a list. The same for what is inside it.
+json shaped(const json& reported);
+
+/// Members of a reply; an empty name is none.
+using reply_parts = std::array<std::string_view, 2>;
+
+/// The things of a reply as a list, each `shaped`: those in these parts of it,
+/// or, where none is named, the reply itself.
+json shaped_list(const json& reply, const reply_parts& parts);
 
 } // namespace roscell::cli

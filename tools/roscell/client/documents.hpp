@@ -3,9 +3,23 @@
 #include "messages/codec/json_codec.hpp"
 #include "messages/failure.hpp"
 
+#include <cstddef>
 #include <string>
 
 namespace roscell::cli {
+
+/// A node takes far less; larger ones are refused there with a better error.
+constexpr size_t max_document_bytes = 256UL * 1024 * 1024;
+
+/// The bytes of a file, or of standard input for "-". Throws command_error if
+/// it cannot be read, or is larger.
+std::string read_file(const std::string& name,
+                      size_t max_bytes = max_document_bytes);
+
+/// What a node that stands on paper only may leave out: it uses nothing, has no
+/// GPU, label or device, and no unified memory. What is wrong with the document
+/// is for the schema to say.
+void complete_paper_node(json& node);
 
 /// A file with a task request, or a plan document with one, as somebody wrote
 /// it.
