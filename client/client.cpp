@@ -1,7 +1,7 @@
 #include "roscell/client.hpp"
 
 #include "actors/edge/http/client/http_client.hpp"
-#include "client/event_stream.hpp"
+#include "client/event_follower.hpp"
 #include "messages/codec/json_codec.hpp"
 #include "messages/failure.hpp"
 

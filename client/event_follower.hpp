@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/edge/http/client/http_client.hpp"
-#include "client/event_stream.hpp"
+#include "messages/event.hpp"
 
 #include <chrono>
 #include <condition_variable>
@@ -9,12 +9,25 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
 #include <vector>
 
 namespace roscell {
+
+/// Puts the lines of a text/event-stream together to events. Unknown fields,
+/// comments, and data that is no event are skipped, so that a newer node can
+/// say more than this program knows.
+class event_stream {
+public:
+  /// Takes one line without its end. Returns the event that it completes.
+  std::optional<event> add_line(std::string_view line);
+
+private:
+  std::string data_;
+};
 
 /// Sequence number after which nothing is kept: gives the events from now on.
 inline constexpr uint64_t from_now_on = 9007199254740991;

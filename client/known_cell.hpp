@@ -5,6 +5,7 @@
 #include "messages/skill.hpp"
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,5 +40,10 @@ struct known_thing {
 
 /// Everything that has a name.
 std::vector<known_thing> things_of(const known_cell& known);
+
+/// What is wrong in a cell, a sentence each, what matters most first: nodes
+/// that are away, tasks that do not run, and instances with their reasons.
+std::vector<std::string> problems_of(const known_cell& known,
+                                     int64_t now_unix_ms);
 
 } // namespace roscell

@@ -127,7 +127,7 @@ json summary(const container_supervisor_state& st) {
           {"deployments_waiting", deployers},
           {"removals_waiting", st.removals.size()},
           {"runtime_deaths", st.runtime_deaths},
-          {"runtime_trouble", st.problem}};
+          {"runtime_problem", st.problem}};
 }
 
 void on_changed(container_supervisor_self self, const instance_row& row) {

@@ -18,7 +18,7 @@ struct join_diagnoser_config {
 };
 
 struct join_diagnoser_state {
-  static constexpr const char* name = "join-scout";
+  static constexpr const char* name = "join-diagnoser";
 
   join_diagnoser_config config;
   uint64_t last_question = 0;

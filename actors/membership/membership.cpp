@@ -169,7 +169,7 @@ void on_tick(self_pointer self, uint64_t number) {
 }
 
 actor_state describe(const membership_status& st) {
-  return state_of({{"standing", st.state},
+  return state_of({{"state", st.state},
                    {"phase", st.phase},
                    {"wanted", st.wanted},
                    {"origin", st.origin},

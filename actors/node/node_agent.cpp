@@ -182,7 +182,7 @@ node_agent_actor::behavior_type node_agent(node_agent_self self,
         return state_of(
             {{"node", self->state.config.node},
              {"reports", self->state.reports},
-             {"rooms_kept",
+             {"reservations",
               self->state.kept.open(self->clock().now(), {}).size()}});
       },
       [self](const resource_query&) { return report(self); },

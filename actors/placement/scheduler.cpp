@@ -10,8 +10,8 @@ namespace {
 
 using scheduler_self = scheduler_actor::stateful_pointer<scheduler_state>;
 
-/// The searcher for live tasks or for plan queries. Nobody waits with a task's
-/// turn for a plan, so no node that leaves ends the search for one.
+/// The searcher for live tasks or for plan queries. Nobody holds the placement
+/// lock while a plan is made, so no node that leaves ends the search for one.
 const scheduler_actor& searcher_for(scheduler_self self, bool trial) {
   auto& st = self->state;
   auto& result = trial ? st.trial : st.live;

@@ -12,9 +12,9 @@ namespace roscell {
 /// asks by itself only when a heartbeat is missing.
 enum class lease_side { member, coordinator };
 
-/// One side's belief that the other one lives: pure, told the time. Whoever
-/// owns it keeps one timer, set to `next()`, and calls `due()` when it fires.
-/// Hearing the peer only ever moves `next()` later, so the timer may stay.
+/// One side's belief that the other one lives, for `lease::span` (its number:
+/// actors/edge/session/limits.hpp). Pure, told the time: its owner sets a timer
+/// to `next()`, calls `due()` then, and leaves it when `next()` moves later.
 class lease {
 public:
   using time_point = std::chrono::steady_clock::time_point;

@@ -91,8 +91,8 @@ void take_owner(session_self self, const own_session& request) {
     hand_over(self, frame);
 }
 
-/// An ack has the number of the beat it answers, so that whoever sent that one
-/// knows when it did. The time is taken before: it may count on that.
+/// An ack has the number of the heartbeat it answers, so that whoever sent that
+/// one knows when it did. The time is taken before: it may count on that.
 void send_out(session_self self, const send_heartbeat& heartbeat) {
   auto& st = self->state;
   const bool is_ack =

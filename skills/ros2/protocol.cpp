@@ -8,6 +8,7 @@
 
 namespace roscell::ros2 {
 
+// All protocols, with a sentence on each: messages/stream_protocols.hpp.
 void add_ros2_protocol(engine::registry& target) {
   ::setenv("SKIP_DEFAULT_XML", "1", 1);
   add_ros2_protocol(target, [](const char* name) -> const char* {

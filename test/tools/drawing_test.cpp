@@ -1,4 +1,4 @@
-#include "tools/roscell/view/graph/drawing.hpp"
+#include "tools/roscell/view/graph/graph_view.hpp"
 
 #include "test/printed_text.hpp"
 

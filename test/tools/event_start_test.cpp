@@ -1,5 +1,5 @@
-#include "tools/roscell/client/event_start.hpp"
-#include "tools/roscell/view/span.hpp"
+#include "tools/roscell/view/event_text.hpp"
+#include "tools/roscell/view/format.hpp"
 
 #include <catch2/catch.hpp>
 

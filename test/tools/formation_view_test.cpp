@@ -1,4 +1,4 @@
-#include "tools/roscell/view/formation_view.hpp"
+#include "tools/roscell/view/plan_view.hpp"
 
 #include "test/printed_text.hpp"
 

@@ -1,4 +1,4 @@
-#include "tools/roscell/daemon/journal.hpp"
+#include "tools/roscell/daemon/node_process.hpp"
 
 #include "actors/node/event_series.hpp"
 

@@ -1,4 +1,4 @@
-#include "tools/roscell/commands/manual.hpp"
+#include "tools/roscell/commands/help.hpp"
 
 #include "tools/roscell/commands.hpp"
 

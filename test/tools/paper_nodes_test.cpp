@@ -1,4 +1,4 @@
-#include "tools/roscell/commands/paper_nodes.hpp"
+#include "tools/roscell/client/documents.hpp"
 
 #include "schemas/message_catalogue.hpp"
 

@@ -1,4 +1,4 @@
-#include "tools/roscell/view/shape/shape.hpp"
+#include "tools/roscell/view/views.hpp"
 
 #include "messages/cell.hpp"
 #include "messages/formation.hpp"

@@ -1,4 +1,4 @@
-#include "tools/roscell/tasks/skeleton.hpp"
+#include "tools/roscell/tasks/known_skills.hpp"
 
 #include "actors/placement/reading/task_reading.hpp"
 #include "schemas/document.hpp"

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+using namespace roscell;
 using namespace roscell::cli;
 using roscell::test::cells_in;
 using roscell::test::widest_line;
@@ -198,7 +199,7 @@ TEST_CASE("a filter is looked for in all cells of a row, in any case",
 
 namespace {
 
-std::string bar_text(const share& of, size_t width, bool utf8) {
+std::string bar_text(const usage_share& of, size_t width, bool utf8) {
   line x;
   x.spans = bar(of, width, utf8);
   return text_of(x);
@@ -224,7 +225,7 @@ TEST_CASE("a bar shows the least amount, and never more than its width",
 
 TEST_CASE("an amount has its bar before it where bars are wanted", "[tools]") {
   cell used{"3/4"};
-  used.usage = share{2, 1, 4};
+  used.usage = usage_share{2, 1, 4};
   const table t{{{"NODE"}, {"CPU", align::right}}, {{"arm", used}}};
   CHECK(cells_in(t.render({})) == "NODE|CPU\narm|3/4\n");
   text_style drawn;

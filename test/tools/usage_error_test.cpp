@@ -1,4 +1,4 @@
-#include "tools/roscell/usage_error.hpp"
+#include "tools/roscell/commands/help.hpp"
 
 #include "tools/roscell/commands.hpp"
 

@@ -1,5 +1,4 @@
 #include "tools/compare_poses/comparison.hpp"
-#include "tools/compare_poses/table.hpp"
 
 #include "test/skills/files.hpp"
 

@@ -1,6 +1,5 @@
 #include "tools/compare_poses/comparison.hpp"
 #include "tools/compare_poses/live_text.hpp"
-#include "tools/compare_poses/table.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -1,4 +1,4 @@
-#include "tools/render_scenes/files.hpp"
+#include "tools/render_scenes/picture.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -1,4 +1,4 @@
-#include "tools/roscell/run.hpp"
+#include "tools/roscell/commands.hpp"
 
 int main(int argc, char** argv) {
   return roscell::cli::run(argc, argv);

@@ -1,9 +1,8 @@
-#include "tools/roscell/run.hpp"
+#include "tools/roscell/commands.hpp"
 
 #include "tools/roscell/client/node_client.hpp"
-#include "tools/roscell/commands.hpp"
+#include "tools/roscell/commands/help.hpp"
 #include "tools/roscell/exit_code.hpp"
-#include "tools/roscell/usage_error.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>

@@ -19,7 +19,7 @@ namespace roscell {
 namespace {
 
 /// Who has asked for it did not know that the node would fall silent before
-/// there was a turn.
+/// it had the placement lock.
 failure missed_heartbeats_before(const std::string& node) {
   return {error_code::unreachable,
           "node '" + node

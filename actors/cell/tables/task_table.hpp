@@ -84,7 +84,7 @@ struct task_entry {
 
 /// How a claim stands to what the table knows.
 enum class claim_status {
-  unknown,    ///< It may take its turn.
+  unknown,    ///< It may wait for the placement lock.
   other_body, ///< Another request has that id.
   ending,     ///< The task is being terminated.
   deploying,  ///< The same request is being deployed.

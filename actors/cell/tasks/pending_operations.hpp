@@ -24,7 +24,7 @@ namespace roscell {
 struct placement_lock_request {
   uint64_t number = 0;
   caf::actor_addr owner;       ///< Null: the coordinator itself.
-  std::function<void()> begin; ///< Called once, when its turn has come.
+  std::function<void()> begin; ///< Called once, when it has the lock.
 };
 
 /// Who works on a task, and who waits for what becomes of it.

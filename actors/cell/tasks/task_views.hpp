@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/cell/state/coordinator_state.hpp"
+#include "messages/instance.hpp"
 
 #include <caf/expected.hpp>
 
@@ -34,5 +35,11 @@ std::vector<registry_row> describe_nodes(const cell_coordinator_state& st);
 bool is_present(const cell_coordinator_state& st, const std::string& node);
 
 caf::error unknown_thing(const std::string& what, const std::string& id);
+
+/// Puts the steps of one task into the order in which data flow through them:
+/// each behind all that it gets something from, steps of which this says
+/// nothing as they were. Where data flow in a circle, what leads back does not
+/// count. Pictures of a task are drawn in this order.
+void sort_by_flow(std::vector<instance_row>& steps);
 
 } // namespace roscell

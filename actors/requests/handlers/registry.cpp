@@ -91,7 +91,7 @@ void add_task_pipelines(request_registry& registry) {
                    .then("resolve_skills", resolve_skills)
                    .then("reserve", place_with_room)
                    .then("record_intent", record_plan)
-                   .then("make_way", have_instances_preempted)
+                   .then("preempt_instances", have_instances_preempted)
                    .then("deploy", deploy)
                    .then("record_outcome", record_result));
   registry.add(start_with("collect_resources", adopt_plan_query)

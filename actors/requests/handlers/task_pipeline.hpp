@@ -20,7 +20,7 @@ struct what_if {
   std::string why; ///< A step whose best alternative is asked for.
 };
 
-/// A request whose turn it is.
+/// A request that has the placement lock.
 struct claimed_task {
   task_request request;
   cell_resources cell;
@@ -62,7 +62,7 @@ struct deployed_task {
 /// Waits for the placement lock. The same request again ends here with the
 /// first reply.
 void claim(const request_context&, task_request, outcome<claimed_task>);
-/// A plan takes no turn: it holds nothing.
+/// A plan takes no placement lock: it holds nothing.
 void adopt_plan_query(const request_context&, task_plan_query,
                       outcome<claimed_task>);
 void resolve_skills(const request_context&, claimed_task,

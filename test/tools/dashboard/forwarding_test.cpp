@@ -1,8 +1,7 @@
-#include "tools/roscell/dashboard/forwarding.hpp"
+#include "tools/roscell/dashboard/pages.hpp"
 
 #include "actors/edge/http/client/http_client.hpp"
 #include "actors/edge/http/http_server.hpp"
-#include "tools/roscell/dashboard/pages.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "tools/roscell/doctor/checks.hpp"
+#include "tools/roscell/doctor/check.hpp"
 #include "tools/roscell/doctor/findings_view.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,4 @@
-#include "tools/roscell/doctor/node/instance_findings.hpp"
-
-#include "tools/roscell/view/instance_text.hpp"
+#include "tools/roscell/doctor/node/node_checks.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -28,29 +26,6 @@ bool warns_of(const findings& all, const std::string& words) {
 }
 
 } // namespace
-
-TEST_CASE("what an instance takes is shown with what it may or has asked for",
-          "[doctor]") {
-  auto row = using_of_asked(61.4, 0.346);
-  CHECK(memory_text(row) == "61 MiB of 64 MiB");
-  CHECK(cpu_text(row) == "0.35 of 0.5");
-  row.metrics.use.memory_limit_mib = 128;
-  CHECK(memory_text(row) == "61 MiB of 128 MiB");
-  row.spec.resources = {};
-  row.metrics.use.memory_limit_mib = -1;
-  CHECK(memory_text(row) == "61 MiB");
-  CHECK(cpu_text(row) == "0.35");
-  row.metrics = {};
-  CHECK(memory_text(row).empty());
-  CHECK(cpu_text(row).empty());
-}
-
-TEST_CASE("what a program says is shown beside what its node has read",
-          "[doctor]") {
-  auto row = using_of_asked(10, 0.1);
-  row.status = "waiting for a map";
-  CHECK(remark(row, 0) == "waiting for a map");
-}
 
 TEST_CASE("who takes more than it has asked for is named", "[doctor]") {
   CHECK(judge_use(using_of_asked(60, 0.55)).empty());

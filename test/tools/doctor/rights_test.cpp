@@ -2,7 +2,6 @@
 
 #include "actors/edge/session/site_token.hpp"
 #include "test/temp_folder.hpp"
-#include "tools/roscell/client/open_skills.hpp"
 
 #include <catch2/catch.hpp>
 

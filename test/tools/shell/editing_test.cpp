@@ -1,7 +1,7 @@
 #include "test/temp_folder.hpp"
-#include "tools/roscell/completion/live_names.hpp"
+#include "tools/roscell/completion/completion.hpp"
 #include "tools/roscell/shell/editing/history_file.hpp"
-#include "tools/roscell/shell/editing/paste_filter.hpp"
+#include "tools/roscell/shell/editing/line_editor.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+using namespace roscell;
 using namespace roscell::cli;
 using namespace roscell::cli::top;
 

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+using namespace roscell;
 using namespace roscell::cli;
 using namespace roscell::cli::top;
 
@@ -67,7 +68,7 @@ TEST_CASE("no line is wider than the screen, whatever its width", "[top]") {
   x.columns.push_back({"CPU", align::right, 1});
   x.columns.push_back({"REASON", align::left, 2});
   for (auto& row : x.rows) {
-    row.emplace_back("2/4").usage = roscell::cli::share{1, 1, 4};
+    row.emplace_back("2/4").usage = usage_share{1, 1, 4};
     row.emplace_back(std::string(200, 'x'));
   }
   for (size_t width = 0; width < 140; ++width) {

@@ -1,7 +1,6 @@
 #include "actors/edge/history/limits.hpp"
 #include "actors/edge/io/node_time.hpp"
 #include "actors/node/limits.hpp"
-#include "tools/roscell/client/event_start.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"

@@ -5,7 +5,7 @@
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/formation_view.hpp"
+#include "tools/roscell/view/plan_view.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>

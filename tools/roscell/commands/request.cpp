@@ -1,7 +1,7 @@
 #include "schemas/document.hpp"
+#include "tools/roscell/client/documents.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/client/progress.hpp"
-#include "tools/roscell/client/read_file.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"

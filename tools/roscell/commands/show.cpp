@@ -1,17 +1,20 @@
 #include "tools/roscell/commands/show.hpp"
 
 #include "actors/edge/http/http_target.hpp"
-#include "tools/roscell/commands/watch.hpp"
+#include "messages/task.hpp"
+#include "tools/roscell/client/watch.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/ros2/found_topic.hpp"
-#include "tools/roscell/tasks/task_history.hpp"
-#include "tools/roscell/view/formation_view.hpp"
+#include "tools/roscell/view/event_text.hpp"
+#include "tools/roscell/view/format.hpp"
+#include "tools/roscell/view/plan_view.hpp"
 #include "tools/roscell/view/task_replies.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>
 
+#include <chrono>
 #include <map>
 #include <memory>
 #include <string>
@@ -248,6 +251,35 @@ void add_show_commands(CLI::App& app, action& chosen) {
   add_skill_new_command(skills, chosen);
   add_skill_check_command(skills, chosen);
   add_transfers_command(app, chosen);
+}
+
+namespace {
+
+/// A coordinator answers at once.
+constexpr std::chrono::seconds history_limit{10};
+
+} // namespace
+
+void print_history(const node_client& node, const std::string& task,
+                   bool as_json) {
+  const auto reply =
+      node.ask(message_json(task_history_query{task}), history_limit);
+  if (as_json) {
+    print(pretty(reply));
+    return;
+  }
+  const auto history = reply.get<task_history>();
+  const auto width = stdout_style().width;
+  std::string text = event_heading(width) + "\n";
+  uint64_t before = 0;
+  for (const auto& e : history.events) {
+    if (e.sequence > before + 1)
+      text += "... " + std::to_string(e.sequence - before - 1)
+              + " more, which are not kept\n";
+    before = e.sequence;
+    text += shortened_line(event_line(e, width)) + "\n";
+  }
+  print(text);
 }
 
 } // namespace roscell::cli

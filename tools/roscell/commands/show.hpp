@@ -3,7 +3,6 @@
 #include "messages/codec/json_codec.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
-#include "tools/roscell/view/shape/shape.hpp"
 #include "tools/roscell/view/views.hpp"
 
 #include <functional>
@@ -46,5 +45,9 @@ CLI::App* add_show_command(CLI::App& app, const char* name,
                            const options_ptr& options);
 
 void add_status_command(CLI::App& app, action& chosen);
+
+/// Prints what has happened to a task, in order; as JSON if so wanted.
+void print_history(const node_client& node, const std::string& task,
+                   bool as_json);
 
 } // namespace roscell::cli

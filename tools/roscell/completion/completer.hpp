@@ -9,6 +9,7 @@
 
 namespace CLI {
 class App;
+class Option;
 } // namespace CLI
 
 namespace roscell::cli {
@@ -37,5 +38,16 @@ std::string common_beginning(const std::vector<std::string>& words);
 /// What takes the place of the word that is typed: what is certain of it, in
 /// quotes where it needs them, and with a blank behind a whole word.
 std::string replacement(const completions& found);
+
+/// What may follow an option, or stand as an argument: "words" and a list,
+/// "files" and "dirs" for paths, "ids" and a kind of which the node is asked,
+/// "interfaces", "capacity", "commands" or "nothing".
+std::string action_of(const CLI::Option& option);
+
+/// All names of an option, with their dashes; the long one last.
+std::vector<std::string> names_of(const CLI::Option& option);
+
+/// All names of a command, the one that help shows first.
+std::vector<std::string> names_of(const CLI::App& command);
 
 } // namespace roscell::cli

@@ -1,9 +1,9 @@
 #include "tools/roscell/config/config_file.hpp"
 
 #include "schemas/text_excerpt.hpp"
-#include "tools/roscell/client/read_file.hpp"
+#include "tools/roscell/client/documents.hpp"
 #include "tools/roscell/commands.hpp"
-#include "tools/roscell/completion/option_values.hpp"
+#include "tools/roscell/completion/completer.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"

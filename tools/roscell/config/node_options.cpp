@@ -4,7 +4,6 @@
 #include "tools/roscell/client/target.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/span.hpp"
 
 #include <chrono>
 #include <filesystem>

@@ -2,6 +2,7 @@
 
 #include "actors/edge/host/interfaces.hpp"
 #include "actors/node/spawn_node.hpp"
+#include "messages/inside/introspection.hpp"
 #include "tools/roscell/config/node_options.hpp"
 #include "tools/roscell/daemon/node_address.hpp"
 #include "tools/roscell/exit_code.hpp"
@@ -48,5 +49,13 @@ private:
   stop_signals signals_;
   address_watch watch_;
 };
+
+/// Writes the events of a node to the log of this process, for people who read
+/// it or the service manager's journal: what concerns the cell in sentences,
+/// losses and failures as warnings. Ends with `events`.
+void start_journal(caf::actor_system& system, const event_log_actor& events);
+
+/// An event in one line: "joined cell 'lab' of 'arm-1'".
+std::string journal_line(const event& e);
 
 } // namespace roscell::cli

@@ -3,7 +3,6 @@
 #include "messages/node.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
-#include "tools/roscell/dashboard/forwarding.hpp"
 #include "tools/roscell/dashboard/open_page.hpp"
 #include "tools/roscell/dashboard/pages.hpp"
 #include "tools/roscell/exit_code.hpp"

@@ -60,4 +60,11 @@ findings run_checks(const std::vector<check>& checks, const checked_host& host,
                     const still_checking& report_progress,
                     std::chrono::milliseconds limit = longest_check);
 
+/// What a host can see by itself.
+const std::vector<check>& host_checks();
+
+/// What a node that runs here finds on its host.
+/// @param config as the node was started with, its address included.
+findings check_own_host(const node_config& config);
+
 } // namespace roscell::cli

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "tools/roscell/doctor/check.hpp"
-#include "tools/roscell/doctor/checks.hpp"
 #include "tools/roscell/view/table.hpp"
 
 #include <string>

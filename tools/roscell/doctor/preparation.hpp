@@ -1,7 +1,7 @@
 #pragma once
 
 #include "tools/roscell/client/node_client.hpp"
-#include "tools/roscell/doctor/checks.hpp"
+#include "tools/roscell/doctor/check.hpp"
 
 #include <filesystem>
 #include <memory>

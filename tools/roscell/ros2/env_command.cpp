@@ -3,8 +3,8 @@
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/ros2/environment.hpp"
-#include "tools/roscell/view/shape/shape.hpp"
 #include "tools/roscell/view/terminal.hpp"
+#include "tools/roscell/view/views.hpp"
 
 #include <CLI/CLI.hpp>
 

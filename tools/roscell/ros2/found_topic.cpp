@@ -1,12 +1,12 @@
 #include "tools/roscell/ros2/found_topic.hpp"
 
 #include "actors/placement/reading/stream_names.hpp"
+#include "client/columns.hpp"
 #include "messages/node.hpp"
 #include "messages/stream_protocols.hpp"
 #include "roscell/skill/errors.hpp"
 #include "tools/roscell/client/find_things.hpp"
 #include "tools/roscell/exit_code.hpp"
-#include "tools/roscell/view/columns.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <CLI/CLI.hpp>
@@ -105,52 +105,6 @@ int listen(const std::function<int()>& command) {
   } catch (const engine::start_error& why) {
     throw command_error{exit_refused, why.what()};
   }
-}
-
-namespace {
-
-/// "camera_1 (best_effort), / x2 (reliable, transient_local)". Volatile is what
-/// most are, and is not said.
-std::string ends_text(const std::vector<topic_end>& ends) {
-  std::map<std::string, int> counts;
-  for (const auto& x : ends) {
-    auto word = (x.program.empty() ? "?" : x.program) + " (" + x.reliability;
-    if (x.durability != "volatile")
-      word += ", " + x.durability;
-    ++counts[word + ")"];
-  }
-  std::vector<std::string> words;
-  words.reserve(counts.size());
-  for (const auto& [word, count] : counts)
-    words.push_back(count == 1 ? word : word + " x" + std::to_string(count));
-  return joined(words, ", ");
-}
-
-} // namespace
-
-const column_list<topic_row>& topic_columns() {
-  using row = const topic_row&;
-  using how = const view_style&;
-  static const column_list<topic_row> result{
-      {{"TOPIC"}, [](row x, how) -> cell { return x.topic; }, "key", "/topic"},
-      {{"TYPE", align::left, 1},
-       [](row x, how) -> cell { return x.data_type; },
-       "text",
-       "/data_type"},
-      {{"WRITERS", align::left, 2},
-       [](row x, how) -> cell { return ends_text(x.writers); },
-       "programs",
-       "/writers"},
-      {{"READERS", align::left, 1},
-       [](row x, how) -> cell { return ends_text(x.readers); },
-       "programs",
-       "/readers"},
-      {{"MISMATCHES", align::left, only_wide, false, true},
-       [](row x, how) -> cell { return joined(x.mismatches, "; "); },
-       "problems",
-       "/mismatches"},
-  };
-  return result;
 }
 
 std::string topics_view(const topic_list& topics, const view_style& style) {

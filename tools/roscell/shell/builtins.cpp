@@ -1,5 +1,6 @@
 #include "tools/roscell/shell/builtins.hpp"
 
+#include "client/columns.hpp"
 #include "messages/codec/json_codec.hpp"
 #include "messages/node.hpp"
 #include "tools/roscell/client/node_client.hpp"

@@ -1,7 +1,7 @@
 #include "tools/roscell/shell/vocabulary.hpp"
 
+#include "tools/roscell/commands.hpp"
 #include "tools/roscell/exit_code.hpp"
-#include "tools/roscell/run.hpp"
 #include "tools/roscell/split_words.hpp"
 #include "tools/roscell/view/terminal.hpp"
 

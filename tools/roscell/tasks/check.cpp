@@ -1,10 +1,10 @@
 #include "actors/placement/reading/task_reading.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
+#include "tools/roscell/client/documents.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/tasks/known_skills.hpp"
-#include "tools/roscell/tasks/task_file.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
 

@@ -31,4 +31,12 @@ skill_list find_skills(const skill_source& source);
 std::vector<skill_row> rows_of(const skill_list& skills,
                                const std::string& operation);
 
+/// A task request in YAML that does these operations one after the other, with
+/// comments on what to fill in. It is valid as it is: `roscell check` takes it.
+/// A step reads what the one before it writes, where its skill takes that.
+/// `skills` has every one of the operations.
+std::string task_skeleton(const std::string& task,
+                          const std::vector<std::string>& operations,
+                          const skill_list& skills);
+
 } // namespace roscell::cli

@@ -2,10 +2,9 @@
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/tasks/known_skills.hpp"
-#include "tools/roscell/tasks/skeleton.hpp"
-#include "tools/roscell/view/shape/shape.hpp"
 #include "tools/roscell/view/task_replies.hpp"
 #include "tools/roscell/view/terminal.hpp"
+#include "tools/roscell/view/views.hpp"
 
 #include <CLI/CLI.hpp>
 

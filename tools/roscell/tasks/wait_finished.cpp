@@ -2,7 +2,7 @@
 
 #include "messages/node.hpp"
 #include "messages/task.hpp"
-#include "tools/roscell/client/change_signal.hpp"
+#include "tools/roscell/client/watch.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/event_text.hpp"
 #include "tools/roscell/view/format.hpp"

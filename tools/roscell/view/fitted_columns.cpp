@@ -1,8 +1,7 @@
-#include "tools/roscell/view/fitted_columns.hpp"
+#include "tools/roscell/view/table.hpp"
 
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/table.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,59 +1,19 @@
 #pragma once
 
+#include "client/value_text.hpp"
+
 #include <chrono>
 #include <cstdint>
-#include <map>
-#include <set>
 #include <string>
 #include <string_view>
-#include <vector>
 
-/// Numbers, times and foreign text as the tables show them, and the option
-/// values that carry a unit.
+/// Foreign text as a terminal shows it, and the option values that carry a
+/// unit.
 namespace roscell::cli {
-
-/// At most `decimals` digits after the point and no trailing zeros; "-" for a
-/// value that is not finite.
-std::string format_number(double value, int decimals = 2);
-
-/// So many significant digits, for numbers of any size: "0.25", "1.895e-07".
-std::string format_significant(double value, int digits);
-
-/// An amount in MiB without its unit: whole numbers from 10 on, one decimal
-/// below.
-std::string format_mib(double mib);
-
-/// An amount in MiB with the unit that people read: "812 MiB", "23.5 GiB".
-std::string format_memory(double mib);
-
-/// Two amounts in MiB with the unit of the second: "0.8/3.8 GiB".
-std::string format_memory(double used_mib, double capacity_mib);
-
-/// A number of bytes with its binary unit, rounded as `format_mib` does:
-/// "512 B", "1.5 KiB", "12 MiB".
-std::string format_bytes(double bytes);
-
-/// The two largest units: "42s", "3m05s", "2h10m", "5d03h". Less than nothing
-/// is "0s".
-std::string format_age(std::chrono::milliseconds age);
-
-/// The age of what happened at `since_unix_ms`; "-" for a time that is not
-/// known (0), "0s" for one to come, because the clocks of two machines differ.
-std::string format_since(int64_t since_unix_ms, int64_t now_unix_ms);
 
 /// Bytes of `text` that are safe in one line of a terminal: control characters
 /// and what is not UTF-8 are shown as '?'.
 std::string printable(std::string_view text);
-
-/// The words in one line.
-std::string joined(const std::vector<std::string>& words,
-                   std::string_view between = ",");
-
-/// Each name once, in order: "a,b".
-std::string listed(const std::set<std::string>& names);
-
-/// Labels and the like: "host=one,room=lab".
-std::string listed(const std::map<std::string, std::string>& pairs);
 
 /// Columns that `text` takes on a terminal: two for a wide character, as those
 /// of Chinese and most emoji, none for an accent that is put above another.
@@ -77,5 +37,9 @@ uint64_t parse_bytes(std::string_view text);
 /// Milliseconds of "30", "2.5" (seconds), "500ms", "2m" or "1h". Throws
 /// std::invalid_argument for anything else, for zero, and for more than a day.
 std::chrono::milliseconds parse_duration(std::string_view text);
+
+/// Seconds of "90s", "5m", "2h" or "7d", at most a hundred years. Throws
+/// std::invalid_argument for anything else.
+std::chrono::seconds parse_span(std::string_view text);
 
 } // namespace roscell::cli

@@ -1,7 +1,6 @@
 #include "tools/roscell/view/log_lines.hpp"
 
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/instance_text.hpp"
 
 #include <algorithm>
 

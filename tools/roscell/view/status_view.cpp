@@ -1,3 +1,4 @@
+#include "client/columns.hpp"
 #include "tools/roscell/view/describe/page.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/views.hpp"

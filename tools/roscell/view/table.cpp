@@ -1,6 +1,5 @@
 #include "tools/roscell/view/table.hpp"
 
-#include "tools/roscell/view/fitted_columns.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <algorithm>
@@ -162,7 +161,7 @@ size_t columns_for(double amount, double capacity, size_t width, size_t room) {
 
 } // namespace
 
-std::vector<span> bar(const share& of, size_t width, bool utf8) {
+std::vector<span> bar(const usage_share& of, size_t width, bool utf8) {
   const auto reserved = columns_for(of.reserved, of.capacity, width, width);
   const auto others =
       columns_for(of.others, of.capacity, width, width - reserved);

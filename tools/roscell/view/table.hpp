@@ -1,28 +1,15 @@
 #pragma once
 
+#include "client/column.hpp"
+
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 /// Lines for people, of which each part looks as what it means.
 namespace roscell::cli {
-
-/// How a part of a line looks, by what it means: a screen without colours shows
-/// it otherwise.
-enum class look {
-  plain,
-  strong,
-  faint,
-  heading,
-  good,
-  busy,
-  bad,
-  others,   ///< Of a bar: used by other programs.
-  reserved, ///< Of a bar: reserved by instances.
-};
 
 struct span {
   std::string text; ///< UTF-8, safe for a terminal.
@@ -76,44 +63,12 @@ struct text_style {
   bool utf8 = true;     ///< These bars may have more than ASCII.
 };
 
-enum class align { left, right };
-
-/// What a column may lose where the terminal is too narrow.
-constexpr int always_shown = 0;
-/// Shown with `wide`, or when it is named, only.
-constexpr int only_wide = 100;
-
-struct column {
-  std::string name;
-  align side = align::left;
-  /// The columns of the highest number are shortened and left out first.
-  int rank = always_shown;
-  bool whole = false;  ///< A part of it says nothing: it is not shortened.
-  bool if_any = false; ///< There only if something stands in it.
-};
-
-/// Of a resource of a node, in its own unit.
-struct share {
-  double others = 0;   ///< Used by programs that are none of ours.
-  double reserved = 0; ///< By instances.
-  double capacity = 0; ///< 0: not known.
-};
-
 /// A bar of that width: what others use, what is reserved, and what is free,
 /// each with a character of its own. What is there at all is seen, as far as
 /// there is room. Without UTF-8 it is "##++....".
-std::vector<span> bar(const share& of, size_t width, bool utf8);
+std::vector<span> bar(const usage_share& of, size_t width, bool utf8);
 
-/// What stands in one column of a row: foreign text as it came.
-struct cell {
-  std::string text;
-  look how = look::plain;     ///< Plain: that of the state word that it is.
-  std::optional<share> usage; ///< Of which a bar can be drawn.
-
-  cell() = default;
-  cell(std::string x, look as = look::plain) : text{std::move(x)}, how{as} {}
-  cell(const char* x) : text{x} {}
-};
+using cell = column_value;
 
 /// Rows under a line of headings. What a terminal must not get of their cells
 /// is replaced when the table is rendered.
@@ -146,5 +101,20 @@ std::optional<double> cell_value(std::string_view text);
 
 /// Whether `part` stands in the text, in any case.
 bool contains_words(const std::string& text, const std::string& part);
+
+// INTERNAL to tables: what is given up where a terminal is too narrow.
+
+/// A column that wants a place.
+struct column_request {
+  size_t natural = 0; ///< Of its widest cell, the heading included.
+  size_t least = 0;   ///< It may be shortened to this.
+  int rank = 0; ///< The highest is shortened and left out first; 0: it stays.
+};
+
+/// Widths for the columns, two blanks apart, that make no line longer than
+/// `width`: columns are shortened, then left out (0). Only those that stay may
+/// be too wide together.
+std::vector<size_t> fitted(const std::vector<column_request>& columns,
+                           size_t width);
 
 } // namespace roscell::cli

@@ -1,72 +1,15 @@
-#include "tools/roscell/view/columns.hpp"
+#include "tools/roscell/view/views.hpp"
+
+#include "actors/edge/io/node_time.hpp"
+#include "client/columns.hpp"
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/instance_text.hpp"
 
 #include <algorithm>
-#include <set>
+#include <string>
 
 namespace roscell::cli {
 
 namespace {
-
-/// What the live instances of a node have reserved, of each resource.
-resource_request reserved_on(const registry_row& row) {
-  resource_request result;
-  for (const auto& x : row.instances) {
-    if (!is_live(x.state))
-      continue;
-    result.cpu += x.spec.resources.cpu;
-    result.memory_mib += x.spec.resources.memory_mib;
-    result.disk_mib += x.spec.resources.disk_mib;
-  }
-  return result;
-}
-
-/// Nothing is shown of what has not been measured yet. A node counts what is
-/// reserved among what is used.
-cell amount_cell(const amount& a, double reserved, bool is_memory) {
-  if (a.capacity <= 0)
-    return {};
-  cell result{is_memory
-                  ? format_memory(a.used, a.capacity)
-                  : format_number(a.used) + "/" + format_number(a.capacity)};
-  result.usage = share{std::max(0.0, a.used - reserved), reserved, a.capacity};
-  return result;
-}
-
-/// That of each GPU; one that shares the node's memory has none of its own.
-std::string gpu_memory(const node_resources& r) {
-  std::vector<std::string> words;
-  for (const auto& gpu : r.gpus)
-    words.push_back(
-        r.unified_memory || gpu.memory_mib.capacity <= 0
-            ? "shared"
-            : format_memory(gpu.memory_mib.used, gpu.memory_mib.capacity));
-  return joined(words, ", ");
-}
-
-/// How many there are, and of how many nobody knows what has become of them.
-std::string known_count(const std::vector<instance_row>& rows) {
-  const auto unknown = std::count_if(rows.begin(), rows.end(), is_unknown);
-  return std::to_string(rows.size())
-         + (unknown == 0 ? "" : " (" + std::to_string(unknown) + " unknown)");
-}
-
-std::string state_of(const registry_row& row) {
-  return row.draining_since_unix_ms > 0 ? to_string(row.state) + ", draining"
-                                        : to_string(row.state);
-}
-
-/// Why a node is not active, and what waits for it.
-std::string reason_of(const registry_row& row) {
-  std::vector<std::string> words;
-  if (!row.reason.empty())
-    words.push_back(row.reason);
-  for (const auto& x : row.instances)
-    if (is_unknown(x) && !x.waits.empty())
-      words.push_back(x.spec.task + "/" + x.spec.step + " " + x.waits);
-  return joined(words, "; ");
-}
 
 /// What is wrong with a cell, as its coordinator or the others tell.
 std::string problem_of_cell(const cell_row& row, const cell_list& cells) {
@@ -102,8 +45,10 @@ registry_row unassigned_row(const unassigned_node& node,
 
 } // namespace
 
-std::string role_text(node_role role) {
-  return role == node_role::coordinator ? "coordinator" : "member";
+std::string or_nothing(const table& t, const char* what,
+                       const view_style& style) {
+  return t.rows.empty() ? std::string{"no "} + what + "\n"
+                        : t.render(style.text);
 }
 
 std::string cells_view(const cell_list& cells, const view_style& style) {
@@ -126,72 +71,9 @@ std::string cells_view(const cell_list& cells, const view_style& style) {
   return or_nothing(t, "cells", style);
 }
 
-const column_list<registry_row>& node_columns() {
-  using row = const registry_row&;
-  using how = const view_style&;
-  static const column_list<registry_row> result{
-      {{"NODE"},
-       [](row x, how) -> cell { return x.identity.name; },
-       "key",
-       "/identity/name"},
-      {{"ROLE", align::left, 4, true},
-       [](row x, how) -> cell { return role_text(x.role); }},
-      {{"STATE"}, [](row x, how) -> cell { return state_of(x); }, "node_state"},
-      {{"SINCE", align::right, 3},
-       [](row x, how y) -> cell {
-         return format_since(x.since_unix_ms, y.now_unix_ms);
-       }},
-      {{"ADDRESS", align::left, 5, true},
-       [](row x, how) -> cell { return x.identity.address; }},
-      {{"ARCH", align::left, 7},
-       [](row x, how) -> cell { return x.resources.architecture; }},
-      {{"CPU", align::right, 1},
-       [](row x, how) -> cell {
-         return amount_cell(x.resources.cpu, reserved_on(x).cpu, false);
-       },
-       "usage",
-       "/resources/cpu"},
-      {{"MEMORY", align::right, 1},
-       [](row x, how) -> cell {
-         return amount_cell(x.resources.memory_mib, reserved_on(x).memory_mib,
-                            true);
-       },
-       "usage",
-       "/resources/memory_mib"},
-      {{"DISK", align::right, 6},
-       [](row x, how) -> cell {
-         return amount_cell(x.resources.disk_mib, reserved_on(x).disk_mib,
-                            true);
-       },
-       "usage",
-       "/resources/disk_mib"},
-      {{"GPUS", align::right, 4},
-       [](row x, how) -> cell {
-         return std::to_string(x.resources.gpus.size());
-       }},
-      {{"GPU MEMORY", align::right, 5, false, true},
-       [](row x, how) -> cell { return gpu_memory(x.resources); },
-       "gpus",
-       "/resources/gpus"},
-      {{"INSTANCES", align::right, 3},
-       [](row x, how) -> cell { return known_count(x.instances); },
-       "amount",
-       "/instances"},
-      {{"REASON", align::left, 2},
-       [](row x, how) -> cell { return reason_of(x); }},
-      {{"LABELS", align::left, only_wide},
-       [](row x, how) -> cell { return listed(x.resources.labels); },
-       "labels",
-       "/resources/labels"},
-      {{"DEVICES", align::left, only_wide},
-       [](row x, how) -> cell { return joined(x.resources.devices); }},
-  };
-  return result;
-}
-
 table nodes_table(const cell_description& cell, const view_style& style) {
   auto result = table_of(node_columns(), cell.nodes, style);
-  const auto put = [&](std::vector<struct cell>& to, const char* name,
+  const auto put = [&](std::vector<column_value>& to, const char* name,
                        const std::string& text) {
     to.at(*column_of(result, name)) = text;
   };
@@ -209,6 +91,112 @@ table nodes_table(const cell_description& cell, const view_style& style) {
 std::string members_view(const cell_description& cell,
                          const view_style& style) {
   return or_nothing(nodes_table(cell, style), "nodes", style);
+}
+
+namespace {
+
+constexpr std::string_view time_suffix = "_unix_ms";
+
+bool is_time(std::string_view name) {
+  return name.size() > time_suffix.size()
+         && name.substr(name.size() - time_suffix.size()) == time_suffix;
+}
+
+json shaped_time(const json& x) {
+  if (x.is_array()) {
+    auto result = json::array();
+    for (const auto& one : x)
+      result.push_back(shaped_time(one));
+    return result;
+  }
+  if (!x.is_number_integer() || x.get<int64_t>() == 0)
+    return nullptr;
+  return iso_time(x.get<int64_t>());
+}
+
+/// The text at a path of members; null if there is none.
+json text_at(const json& x, std::initializer_list<const char*> path) {
+  const auto* at = &x;
+  for (const auto* name : path) {
+    const auto found = at->is_object() ? at->find(name) : at->end();
+    if (!at->is_object() || found == at->end())
+      return nullptr;
+    at = &*found;
+  }
+  return at->is_string() ? *at : json{};
+}
+
+/// What names a thing: of a node its identity, of an instance its id, and so
+/// on. Null: it is none, or has its name already.
+json name_of(const json& x) {
+  if (x.contains("name"))
+    return nullptr;
+  for (const auto& path :
+       {std::initializer_list<const char*>{"identity", "name"},
+        {"spec", "instance"},
+        {"skill", "descriptor", "operation"},
+        {"descriptor", "operation"},
+        {"transfer"}})
+    if (auto name = text_at(x, path); !name.is_null())
+      return name;
+  if (x.contains("submitted_unix_ms"))
+    return text_at(x, {"task"});
+  if (x.contains("writers"))
+    return text_at(x, {"topic"});
+  return x.contains("discovery_server") ? text_at(x, {"cell"}) : json{};
+}
+
+/// `input` and `output` of a step are one end or a list of them; those of a
+/// descriptor are an object of their own.
+bool is_one_end(const std::string& name, const json& x) {
+  return (name == "input" || name == "output") && x.is_object()
+         && x.contains("endpoint");
+}
+
+/// Members in which anybody may have any names.
+bool is_free_form(const std::string& name) {
+  return name == "parameters" || name == "labels" || name == "environment"
+         || name == "data";
+}
+
+} // namespace
+
+json shaped(const json& reported) {
+  if (reported.is_array()) {
+    auto result = json::array();
+    for (const auto& x : reported)
+      result.push_back(shaped(x));
+    return result;
+  }
+  if (!reported.is_object())
+    return reported;
+  auto result = json::object();
+  if (auto name = name_of(reported); !name.is_null())
+    result["name"] = std::move(name);
+  for (const auto& [name, value] : reported.items()) {
+    if (is_time(name))
+      result[name.substr(0, name.size() - time_suffix.size())] =
+          shaped_time(value);
+    else if (is_one_end(name, value))
+      result[name] = json::array({shaped(value)});
+    else
+      result[name] = is_free_form(name) ? value : shaped(value);
+  }
+  return result;
+}
+
+json shaped_list(const json& reply, const reply_parts& parts) {
+  auto result = json::array();
+  if (parts.front().empty()) {
+    result.push_back(shaped(reply));
+    // The name of a message is no part of a thing.
+    result[0].erase("type");
+  }
+  for (const auto part : parts)
+    if (const auto list = reply.find(std::string{part}); list != reply.end())
+      for (const auto& x : *list)
+        result.push_back(shaped(x));
+  return result;
 }
 
 } // namespace roscell::cli

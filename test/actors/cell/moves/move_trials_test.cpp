@@ -231,7 +231,8 @@ private:
       if (node.at("state") == "departing")
         return "a node departs for ever: " + node.dump();
     const auto state = state_of_coordinator();
-    for (const auto* what : {"moves", "orders", "unsafe", "turn", "remains"})
+    for (const auto* what :
+         {"moves", "orders", "unsafe", "placement_lock", "remains"})
       if (state.at(what) != 0)
         return std::string{what} + " are left over: " + state.dump();
     size_t programs = 0;

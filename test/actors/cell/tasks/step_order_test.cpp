@@ -1,4 +1,4 @@
-#include "actors/cell/tasks/step_order.hpp"
+#include "actors/cell/tasks/task_views.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "roscell/node_config.hpp"
 #include "tools/roscell/doctor/check.hpp"
 
 #include <sys/types.h>
@@ -7,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 /// Who is let in: what proves a node of this host to others, and who decides
 /// what it runs.
@@ -29,5 +31,15 @@ std::string root_warning(uid_t user, bool kept);
 finding judge_node_user(std::optional<uid_t> owner, bool kept);
 
 findings check_node_user(const checked_host& host);
+
+/// A folder of skills that others may change.
+struct open_skills {
+  std::string what;   ///< The folder, and who may.
+  std::string remedy; ///< A command.
+};
+
+/// Those that a node which runs as root starts. None for a node of another
+/// user: there it is his own affair.
+std::vector<open_skills> find_open_skills(const node_config& config);
 
 } // namespace roscell::cli

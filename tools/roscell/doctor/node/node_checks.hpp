@@ -5,7 +5,7 @@
 #include "messages/node.hpp"
 #include "messages/topic.hpp"
 #include "tools/roscell/client/node_client.hpp"
-#include "tools/roscell/doctor/checks.hpp"
+#include "tools/roscell/doctor/check.hpp"
 
 #include <memory>
 #include <string>
@@ -24,5 +24,16 @@ findings judge_joining(const node_description& node);
 findings judge_refused_skills(const node_description& node);
 findings judge_topics(const topic_list& topics);
 findings judge_cell(const cell_description& cell);
+
+// Whether instances do as they should, and take what they have asked for.
+
+/// Nothing, if an instance takes no more of its host than it has asked for.
+findings judge_use(const instance_row& row);
+
+/// Whether anything holds the instances of a node to that.
+findings judge_limits(const node_description& node);
+
+/// What is wrong with each, or that nothing is.
+findings judge_instances(const std::vector<instance_row>& rows);
 
 } // namespace roscell::cli

@@ -1,6 +1,6 @@
 #include "tools/roscell/top/layout/frame.hpp"
 
-#include "tools/roscell/top/viewer.hpp"
+#include "client/known_cell.hpp"
 #include "tools/roscell/view/describe/describe_view.hpp"
 #include "tools/roscell/view/event_text.hpp"
 #include "tools/roscell/view/format.hpp"

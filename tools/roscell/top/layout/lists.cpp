@@ -1,6 +1,6 @@
 #include "tools/roscell/top/layout/lists.hpp"
 
-#include "tools/roscell/view/columns.hpp"
+#include "client/columns.hpp"
 
 #include <algorithm>
 

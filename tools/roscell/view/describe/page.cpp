@@ -1,11 +1,11 @@
 #include "tools/roscell/view/describe/page.hpp"
 
 #include "actors/edge/io/node_time.hpp"
-#include "tools/roscell/view/columns.hpp"
+#include "client/columns.hpp"
+#include "client/instance_text.hpp"
 #include "tools/roscell/view/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/graph/task_graph.hpp"
-#include "tools/roscell/view/instance_text.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,6 @@
 #include "tools/roscell/view/graph/task_graph.hpp"
 
 #include "tools/roscell/view/format.hpp"
-#include "tools/roscell/view/instance_text.hpp"
 
 #include <algorithm>
 #include <utility>
