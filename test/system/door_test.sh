@@ -157,13 +157,14 @@ test_who_has_the_name_of_a_cell_keeps_it_though_a_stranger_is_heard_first() {
   make_site_token
   start_on 2 head --coordinator --cell line
   delay_packets 50
-  cp "$scratch/site.token" "$scratch/ours"
-  make_site_token
-  start_on 1 den --coordinator --cell line
+  (umask 077 && rev "$scratch/site.token" > "$scratch/theirs")
+  inside=(ip netns exec "${hosts[0]}")
+  start_node den --interface 10.231.7.1 --coordinator --cell line \
+    --site-token "$scratch/theirs"
   timeout "$deadline_s" ip netns exec "${hosts[0]}" "$ROSCELL" node --coordinator \
     --cell line --name second --interface 10.231.7.1 --data-dir "$scratch/second" \
     --port 0 --discovery-port 0 --public-domain "$public_domain" \
-    --site-token "$scratch/ours" 2> "$scratch/stderr"
+    --site-token "$scratch/site.token" 2> "$scratch/stderr"
   expect "exit code" $? 1
   grep -q "the cell name 'line' is in use: node 'head'" "$scratch/stderr" \
     || fail "$(cat "$scratch/stderr")"
