@@ -118,6 +118,24 @@ TEST_CASE("the shim names an interpreter that is not there") {
   CHECK_THAT(content_of(folder / "i/log.0"), Contains(words));
 }
 
+TEST_CASE("a program that is still being written is run when it is closed") {
+  temp_folder folder;
+  const auto script = folder / "script";
+  std::ofstream{script} << "#!/bin/sh\necho up\n";
+  REQUIRE(::chmod(script.c_str(), 0755) == 0);
+  child_process writer{{"/bin/sh", "-c",
+                        "exec 9>>\"$0\"; : > \"$1\"; exec sleep 0.3", script,
+                        folder / "open"},
+                       {{"PATH", "/usr/bin:/bin"}}};
+  REQUIRE(wait_in_folder(
+      folder / "", [&] { return std::filesystem::exists(folder / "open"); }));
+  child_process process{
+      {shim, "--dir", folder / "i", "--log-bytes", "4096", "--", script}, {}};
+  CHECK(process.wait() == 0);
+  CHECK(content_of(folder / "i/log.0") == "up\n");
+  CHECK(writer.wait() == 0);
+}
+
 TEST_CASE("the shim runs the command in the folder it is told") {
   temp_folder folder;
   folder.write("here", "found\n");

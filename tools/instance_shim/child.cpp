@@ -6,6 +6,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/inotify.h>
 #include <sys/prctl.h>
 #include <sys/signalfd.h>
 #include <sys/wait.h>
@@ -62,6 +63,25 @@ constexpr int kill_round_ms = 50;
   fail("run", program);
 }
 
+/// How long a program that is being written may take.
+constexpr int most_writing_ms = 5000;
+
+/// Gives control to the command, and returns with errno set if it cannot. A
+/// program that has just been written may still be open for writing, in what
+/// another thread of its writer has forked and has not begun its own program:
+/// it is run when the last descriptor is closed.
+void run(char* const* command) {
+  ::execvp(command[0], command);
+  if (errno != ETXTBSY)
+    return;
+  pollfd closed{::inotify_init1(IN_CLOEXEC), POLLIN, 0};
+  ::inotify_add_watch(closed.fd, command[0], IN_CLOSE_WRITE);
+  // It may have been closed before the watch.
+  ::execvp(command[0], command);
+  if (errno == ETXTBSY && ::poll(&closed, 1, most_writing_ms) >= 0)
+    ::execvp(command[0], command);
+}
+
 void reset_signals() {
   // What the shim ignores would stay ignored across execve.
   for (auto number : {SIGHUP, SIGINT, SIGPIPE, SIGXFSZ})
@@ -103,7 +123,7 @@ void die_with(pid_t shim) {
   die_with(shim);
   if (o.working_dir != nullptr && ::chdir(o.working_dir) != 0)
     fail("change to folder", o.working_dir);
-  ::execvp(o.command[0], o.command);
+  run(o.command);
   fail_to_run(o.command[0]);
 }
 
