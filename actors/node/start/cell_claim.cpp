@@ -68,13 +68,14 @@ private:
   std::vector<bool> proven_;
 };
 
-/// No more than are asked in all, and nobody twice.
-/// @param asked those who have been asked, with those that are returned.
+/// No more than are asked at once, and nobody twice.
+/// @param asked those who have been asked, with those that are returned. Many
+/// who prove nothing leave as much room in the second look as in the first.
 std::vector<announcement> without_repetitions(std::vector<announcement> claims,
                                               std::set<std::string>& asked) {
   std::vector<announcement> result;
   for (auto& x : claims)
-    if (asked.size() < limits::token::claims
+    if (result.size() < limits::token::claims
         && asked.insert(x.session + " " + x.uuid).second)
       result.push_back(std::move(x));
   return result;

@@ -15,9 +15,10 @@ namespace roscell {
 /// server of a new one. What is announced is a hint until it is proven: whoever
 /// claims the cell's name, or this node's UUID, is asked for a proof of the
 /// site token, all of them at once, and one that has none is told of as
-/// `claim_ignored`, and looks once more for the one that has. Blocks for
-/// `limits::discovery::survey`; if there are any, also for `second_survey` and
-/// twice `limits::token::claim_proof` at most.
+/// `claim_ignored`. Where nobody had one, the site is looked at once more, for
+/// an owner who is heard later. Blocks for `limits::discovery::survey`; if
+/// there are any, also for `second_survey` and twice
+/// `limits::token::claim_proof` at most.
 ///
 /// Errors: conflict (somebody who proves it coordinates that cell).
 caf::expected<uint8_t> claim_cell(const node_config& config,
