@@ -14,14 +14,15 @@ from browser import Browser  # noqa: E402
 from fake_cell import PAGE, serve  # noqa: E402
 
 SECONDS = 5
-PLAIN_SECONDS = 2
+PLAIN_SECONDS = 3
 # Of 95 of 100 frames, and of the longest piece of work: what a person sees as fluent
 # where the page has a core to itself.
 MOST_FRAME_MS = 34
 MOST_TASK_MS = 150
 # How much of the time the page may work on a core, as a multiple of what a plain table
-# works there just before and just after: a core may be slow, or shared.
-MOST_WORK = 2.5
+# works there just before and just after: a core may be slow, or shared. On a virtual core
+# of an AMD EPYC that nobody else had, it is a quarter of the time.
+MOST_WORK = 1.85
 
 # How far frames are apart, what the page works, and how much of the time.
 MEASURE = """
