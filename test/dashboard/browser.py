@@ -60,16 +60,16 @@ class Browser:
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
             "features": [{"name": "prefers-color-scheme", "value": scheme}]})
 
-    def open(self, room=""):
-        """Opens a room anew, and waits until the page knows the cell."""
+    def open(self, address=""):
+        """Opens a page of the dashboard anew, and waits until the page knows the cell."""
         self.driver.get("about:blank")
-        self.driver.get(self.url + room)
+        self.driver.get(self.url + address)
         try:
             self.until(lambda: self.js("return document.documentElement.dataset.ready") == "yes")
-        except Exception as trouble:
+        except Exception as error:
             asked = self.js("""return performance.getEntriesByType('resource').slice(-12)
                 .map((x) => [x.name.slice(-24), Math.round(x.startTime), Math.round(x.duration), x.responseStatus])""")
-            raise AssertionError(f"{room} does not open: {self.text('body')[:300]} {asked} {self.complaints()}") from trouble
+            raise AssertionError(f"{address} does not open: {self.text('body')[:300]} {asked} {self.complaints()}") from error
 
     def quicken(self):
         """From the next `open` on the page can be hidden, and what it does after seconds
@@ -85,8 +85,8 @@ class Browser:
               document.dispatchEvent(new Event('visibilitychange'));
             };"""})
 
-    def go(self, room):
-        self.js("location.hash = arguments[0]", room)
+    def go(self, address):
+        self.js("location.hash = arguments[0]", address)
         time.sleep(0.1)
 
     def js(self, script, *arguments):
@@ -103,8 +103,8 @@ class Browser:
         """Waits until all of these words stand there."""
         try:
             self.until(lambda: all(x in self.text(selector) for x in words), patience)
-        except Exception as trouble:
-            raise AssertionError(f"{words} cannot be read in: {self.text(selector)[:2000]}") from trouble
+        except Exception as error:
+            raise AssertionError(f"{words} cannot be read in: {self.text(selector)[:2000]}") from error
 
     def find(self, selector):
         return self.until(lambda: self.driver.find_element(By.CSS_SELECTOR, selector))

@@ -167,23 +167,23 @@ class DashboardTest(Asking, KeepingPlace, MakingWay, unittest.TestCase):
     def test_every_text_can_be_read_in_light_and_in_dark(self):
         for scheme in ("light", "dark"):
             self.page.prefers(scheme)
-            for room in ("site", "tasks", "instances", "events", "plan", "requests"):
-                self.page.open(f"#/{room}")
+            for name in ("site", "tasks", "instances", "events", "plan", "requests"):
+                self.page.open(f"#/{name}")
                 time.sleep(0.3)
-                self.assertEqual(self.page.js(reading.FAINT_TEXTS), [], f"{room}, {scheme}")
+                self.assertEqual(self.page.js(reading.FAINT_TEXTS), [], f"{name}, {scheme}")
 
     def test_it_is_whole_on_a_phone_a_tablet_and_at_twice_the_size(self):
         for width, height in ((360, 740), (820, 1180), (720, 450)):
             self.page.size(width, height)
-            for room in ("site", "tasks", "instances", "topics", "events", "plan", "requests"):
-                self.page.open(f"#/{room}")
+            for name in ("site", "tasks", "instances", "topics", "events", "plan", "requests"):
+                self.page.open(f"#/{name}")
                 time.sleep(0.2)
-                self.assertEqual(self.page.js(reading.TOO_WIDE), [], f"{room} at {width}")
+                self.assertEqual(self.page.js(reading.TOO_WIDE), [], f"{name} at {width}")
 
     def test_every_control_has_a_name(self):
-        for room in ("site", "tasks", "instances", "topics", "events", "plan", "requests"):
-            self.page.open(f"#/{room}")
-            self.assertEqual(self.page.js(reading.NAMELESS), [], room)
+        for name in ("site", "tasks", "instances", "topics", "events", "plan", "requests"):
+            self.page.open(f"#/{name}")
+            self.assertEqual(self.page.js(reading.NAMELESS), [], name)
 
     def test_the_keyboard_is_enough(self):
         page = self.page
@@ -221,8 +221,8 @@ class DashboardTest(Asking, KeepingPlace, MakingWay, unittest.TestCase):
     def test_nothing_comes_from_elsewhere_and_no_policy_is_broken(self):
         page = self.page
         page.complaints()
-        for room in ("site", "tasks", "instances", "topics", "events", "plan", "requests"):
-            page.open(f"#/{room}")
+        for name in ("site", "tasks", "instances", "topics", "events", "plan", "requests"):
+            page.open(f"#/{name}")
         origin = page.js("return location.origin")
         elsewhere = [x for x in page.js("return performance.getEntriesByType('resource').map((x) => x.name)")
                      if not x.startswith(origin)]
@@ -237,7 +237,7 @@ class DashboardTest(Asking, KeepingPlace, MakingWay, unittest.TestCase):
             base = secret.rsplit("/", 1)[0]
             self.assertEqual(self.page.driver.execute_async_script(reading.TRESPASS, base, secret, self.trespass()), "nothing")
             self.page.driver.switch_to.frame(self.page.find("iframe"))
-            self.assertEqual(self.page.driver.find_elements("css selector", "#room"), [])
+            self.assertEqual(self.page.driver.find_elements("css selector", "#page"), [])
             self.page.driver.switch_to.default_content()
         finally:
             stranger.shutdown()
