@@ -13,7 +13,7 @@ using namespace roscell::cli;
 
 namespace {
 
-known_cell sample() {
+known_cell described_sample() {
   known_cell known;
   known.cell.cell = "lab";
   known.cell.coordinator = "head";
@@ -78,7 +78,7 @@ std::string refusal(const known_cell& known, const std::string& name,
 } // namespace
 
 TEST_CASE("a node is described with all that it has and runs", "[tools]") {
-  const auto text = described(sample(), "arm-1");
+  const auto text = described(described_sample(), "arm-1");
   CHECK(has(text, "Kind:           node\n"));
   CHECK(has(text, "Name:           arm-1\n"));
   CHECK(has(text, "Labels:         room=hall\n"));
@@ -94,7 +94,7 @@ TEST_CASE("a node is described with all that it has and runs", "[tools]") {
 
 TEST_CASE("a task is described with its steps, ports and allocation",
           "[tools]") {
-  const auto text = described(sample(), "t");
+  const auto text = described(described_sample(), "t");
   CHECK(has(text, "Allocation:     poses→arm-1 score=0.25\n"));
   CHECK(has(text, "  in    /image    ros2      sensor_msgs/msg/Image\n"));
   CHECK(has(text, "  tag_size_m  0.16\n"));
@@ -102,14 +102,14 @@ TEST_CASE("a task is described with its steps, ports and allocation",
 
 TEST_CASE("an instance is described with its words, metrics and log",
           "[tools]") {
-  const auto text = described(sample(), "t-poses-1a2b3c4d");
+  const auto text = described(described_sample(), "t-poses-1a2b3c4d");
   CHECK(has(text, "Status text:    frames=7\n"));
   CHECK(has(text, "Metrics:        2.5 Hz, 0 dropped, 1.5 ms\n"));
   CHECK(has(text, "\nEnd of the log:\n  a line\n"));
 }
 
 TEST_CASE("an instance's health and safety are described", "[tools]") {
-  auto known = sample();
+  auto known = described_sample();
   auto& row = known.instances[0];
   CHECK_FALSE(has(described(known, "t-poses-1a2b3c4d"), "Stop-safe"));
   row.health = instance_health::starved;
@@ -126,41 +126,42 @@ TEST_CASE("an instance's health and safety are described", "[tools]") {
 }
 
 TEST_CASE("a lost node's instance is described as unknown", "[tools]") {
-  auto known = sample();
+  auto known = described_sample();
   known.instances[0].unknown_since_unix_ms = 31'000;
   const auto text = described(known, "t-poses-1a2b3c4d");
   CHECK(has(text, "State:          unknown since 30s, it was running\n"));
 }
 
 TEST_CASE("a declared parameter is described with its meaning", "[tools]") {
-  const auto text = described(sample(), "poses");
+  const auto text = described(described_sample(), "poses");
   CHECK(has(text, "rate_hz, a number from 1 to 30 (Hz)\n"));
   CHECK(has(text, "refine: true, true or false\n"));
   CHECK(has(text, "      finer\n"));
 }
 
 TEST_CASE("a cell is described with its nodes and tasks", "[tools]") {
-  const auto text = described(sample(), "lab");
+  const auto text = described(described_sample(), "lab");
   CHECK(has(text, "Coordinator:    head\n"));
   CHECK(has(text, "\nNodes:\n  NODE "));
   CHECK(has(text, "\nTasks:\n  TASK "));
 }
 
 TEST_CASE("a thing is found by the beginning of an instance's id", "[tools]") {
-  CHECK(find_thing(sample(), "", "t-po").name == "t-poses-1a2b3c4d");
-  CHECK(find_thing(sample(), "instance", "t").name == "t-poses-1a2b3c4d");
+  CHECK(find_thing(described_sample(), "", "t-po").name == "t-poses-1a2b3c4d");
+  CHECK(find_thing(described_sample(), "instance", "t").name
+        == "t-poses-1a2b3c4d");
 }
 
 TEST_CASE("an unknown name is refused with the nearest one", "[tools]") {
-  CHECK(refusal(sample(), "arm-2", "node")
+  CHECK(refusal(described_sample(), "arm-2", "node")
         == "there is no node 'arm-2' | did you mean 'arm-1'?");
-  CHECK(refusal(sample(), "labb")
+  CHECK(refusal(described_sample(), "labb")
         == "there is no node, task, instance, skill or cell 'labb' | did you "
            "mean 'lab'?");
 }
 
 TEST_CASE("a name that several things have needs a kind", "[tools]") {
-  auto known = sample();
+  auto known = described_sample();
   known.cell.cell = "arm-1";
   CHECK(refusal(known, "arm-1")
         == "several things are called 'arm-1' | say which one: cell arm-1, "
@@ -169,7 +170,7 @@ TEST_CASE("a name that several things have needs a kind", "[tools]") {
 }
 
 TEST_CASE("a description is told to programs too", "[tools]") {
-  const auto known = sample();
+  const auto known = described_sample();
   const auto x = describe_json(known, find_thing(known, "task", "t"), "");
   CHECK(x.at("kind") == "task");
   CHECK(x.at("name") == "t");

@@ -20,7 +20,7 @@ json schema_of(const std::string& name) {
   return json::parse(file);
 }
 
-instance_row sample_instance() {
+instance_row shaped_instance() {
   instance_row result;
   result.spec.instance = "t-say-1a2b3c4d";
   result.spec.task = "t";
@@ -41,7 +41,7 @@ cell_description sample_cell() {
   result.cell = "lab";
   result.nodes.resize(1);
   result.nodes[0].identity = {"arm-1", "u", 1, "10.0.0.1:8420"};
-  result.nodes[0].instances = {sample_instance()};
+  result.nodes[0].instances = {shaped_instance()};
   result.free = {{"arm-2", "v", "10.0.0.2:8420", node_state::independent, ""}};
   return result;
 }
@@ -57,11 +57,11 @@ void check(const std::string& schema, const json& list) {
 TEST_CASE("what is printed as JSON follows its published schema", "[tools]") {
   check("nodes", shaped_list(message_json(sample_cell()), {"nodes", "free"}));
   check("instances",
-        shaped_list(message_json(instance_description{{sample_instance()}}),
+        shaped_list(message_json(instance_description{{shaped_instance()}}),
                     {"instances"}));
   check("tasks",
         shaped_list(message_json(task_description{{task_row{
-                        "t", task_state::running, 5, 0, {sample_instance()}}}}),
+                        "t", task_state::running, 5, 0, {shaped_instance()}}}}),
                     {"tasks"}));
   check(
       "cells",
@@ -80,7 +80,7 @@ TEST_CASE("what is printed as JSON follows its published schema", "[tools]") {
 }
 
 TEST_CASE("a thing has its name and shape wherever it stands", "[tools]") {
-  const auto row = shaped(json(sample_instance()));
+  const auto row = shaped(json(shaped_instance()));
   CHECK(row["name"] == "t-say-1a2b3c4d");
   CHECK(row["since"] == "2023-11-14T22:13:20.123Z");
   CHECK(row["spec"]["input"].is_array());
@@ -92,7 +92,7 @@ TEST_CASE("a thing has its name and shape wherever it stands", "[tools]") {
 
 TEST_CASE("a time that is not known is null, and parameters stay theirs",
           "[tools]") {
-  auto instance = sample_instance();
+  auto instance = shaped_instance();
   instance.since_unix_ms = 0;
   const auto row = shaped(json(instance));
   CHECK(row["since"].is_null());

@@ -12,7 +12,7 @@ using roscell::test::widest_line;
 
 namespace {
 
-table sample() {
+table sample_table() {
   return {{{"NODE"}, {"CPU", align::right}, {"STATE"}},
           {{"größe", "2", "active"}, {"b", "0.25", "lost"}}};
 }
@@ -36,7 +36,7 @@ text_style of_width(size_t width) {
 
 TEST_CASE("columns are aligned under their headings by letters, not bytes",
           "[tools]") {
-  CHECK(sample().render({})
+  CHECK(sample_table().render({})
         == "NODE    CPU  STATE\n"
            "größe     2  active\n"
            "b      0.25  lost\n");
@@ -53,7 +53,7 @@ TEST_CASE("a foreign cell cannot break the line", "[tools]") {
 }
 
 TEST_CASE("no line is wider than the terminal", "[tools]") {
-  const auto text = sample().render(of_width(12));
+  const auto text = sample_table().render(of_width(12));
   CHECK(cells_in(text) == "NODE|CPU…\ngröße|2…\nb|0.25…\n");
   CHECK(widest_line(text) == 12);
 }
@@ -96,8 +96,8 @@ TEST_CASE("a wide table is neither cut nor without a column", "[tools]") {
 TEST_CASE("a table can do without headings", "[tools]") {
   text_style bare;
   bare.tables.headings = false;
-  const auto whole = sample().render({});
-  CHECK(sample().render(bare) == whole.substr(whole.find('\n') + 1));
+  const auto whole = sample_table().render({});
+  CHECK(sample_table().render(bare) == whole.substr(whole.find('\n') + 1));
   const table t{{{"A LONG HEADING"}, {"B"}}, {{"a", "b"}}};
   CHECK(t.render(bare) == "a  b\n");
 }
@@ -105,7 +105,7 @@ TEST_CASE("a table can do without headings", "[tools]") {
 TEST_CASE("columns are chosen by their names", "[tools]") {
   text_style chosen;
   chosen.tables.columns = {"state", "NODE"};
-  CHECK(cells_in(sample().render(chosen))
+  CHECK(cells_in(sample_table().render(chosen))
         == "STATE|NODE\nactive|größe\nlost|b\n");
   chosen.tables.columns = {"discovery-server"};
   const table spaced{{{"DISCOVERY SERVER"}}, {{"x"}}};
@@ -118,7 +118,7 @@ TEST_CASE("a column that there is not is refused with those that there are",
   wrong.tables.columns = {"PORT"};
   const auto refusal = [&] {
     try {
-      sample().render(wrong);
+      sample_table().render(wrong);
     } catch (const command_error& e) {
       return e.what() + (": " + e.hint);
     }
@@ -161,13 +161,13 @@ TEST_CASE("a cell's value is its number with its unit", "[tools]") {
 TEST_CASE("colours change no column", "[tools]") {
   text_style coloured;
   coloured.colour = true;
-  auto text = sample().render(coloured);
+  auto text = sample_table().render(coloured);
   CHECK(text.find("\x1b[32mactive\x1b[0m") != text.npos);
   CHECK(text.find("\x1b[31mlost\x1b[0m") != text.npos);
   for (auto begin = text.find('\x1b'); begin != text.npos;
        begin = text.find('\x1b'))
     text.erase(begin, text.find('m', begin) - begin + 1);
-  CHECK(text == sample().render({}));
+  CHECK(text == sample_table().render({}));
 }
 
 TEST_CASE("only state words get a colour", "[tools]") {
@@ -192,9 +192,9 @@ TEST_CASE("a filter is looked for in all cells of a row, in any case",
   text_style filtered;
   filtered.tables.headings = false;
   filtered.tables.filter = "LOS";
-  CHECK(cells_in(sample().render(filtered)) == "b|0.25|lost\n");
+  CHECK(cells_in(sample_table().render(filtered)) == "b|0.25|lost\n");
   filtered.tables.filter = "nothing";
-  CHECK(sample().render(filtered).empty());
+  CHECK(sample_table().render(filtered).empty());
 }
 
 namespace {
