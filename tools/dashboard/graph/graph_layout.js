@@ -6,7 +6,7 @@
 import { asList } from '../page/words.js';
 
 export const LINE = 16;
-export const BOX = { width: 230, head: 3 };
+export const BOX = { width: 286, head: 3 };
 const COLUMN = BOX.width + 24;
 const LANE = 13;
 const HEADING = 34;

@@ -91,6 +91,7 @@ known_thing find_thing(const known_cell& known, const std::string& kind,
   if (!found.empty())
     return found.front();
   std::vector<std::string_view> names;
+  names.reserve(all.size());
   for (const auto& x : all)
     names.push_back(x.name);
   throw command_error{
