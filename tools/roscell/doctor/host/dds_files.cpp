@@ -120,6 +120,7 @@ findings judge_users(const std::vector<dds_memory>& all) {
   if (!closed || users.size() < 2)
     return {};
   std::vector<std::string> names;
+  names.reserve(users.size());
   for (const auto user : users)
     names.push_back(user_word(user));
   return {{judgement::warning,

@@ -93,6 +93,7 @@ bool is_of_ufw(const json& ruleset, const packet_filter& filter) {
 std::string ports_text(const std::vector<port_range>& all, const char* to,
                        const std::string& separator = ", ") {
   std::vector<std::string> texts;
+  texts.reserve(all.size());
   for (const auto& x : all)
     texts.push_back(std::to_string(x.first)
                     + (x.last > x.first ? to + std::to_string(x.last) : ""));
