@@ -292,6 +292,12 @@ test_top_needs_a_terminal_but_a_poor_one_will_do() {
   expect "exit code" $code 2
   has_line 'the columns are NODE, ROLE, STATE' "$scratch/said" \
     || fail "$(cat "$scratch/said")"
+  # As earlier versions called them: all that is missing is the terminal.
+  local earlier
+  for earlier in drops -id instance-of; do
+    "$ROSCELL" top "--sort=$earlier" < /dev/null > "$scratch/said" 2>&1
+    has_line 'needs a terminal' "$scratch/said" || fail "$earlier: $(cat "$scratch/said")"
+  done
   start_line
   open_terminal 80 24
   run_here "TERM=dumb $ROSCELL top --to $scratch/head/node.sock"

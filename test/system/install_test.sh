@@ -105,6 +105,11 @@ is_mended() {
     || fail "after '$commands': $(cat "$scratch/found")"
 }
 
+test_a_check_of_doctor_is_found_by_its_former_name() {
+  doctor --only shm-sharing
+  expect "the checks" "$(jq -c '[.[].check] | unique' "$scratch/found")" '["leftovers"]'
+}
+
 # on_a_host: what follows is on a host of its own with eth0.
 on_a_host() {
   bridge_hosts 1

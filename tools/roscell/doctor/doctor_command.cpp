@@ -96,6 +96,8 @@ void add_doctor_command(CLI::App& app, action& chosen) {
       ->add_option("--only", options->only,
                    "Only these checks; --list names them")
       ->delimiter(',')
+      // Scripts may still say it; what it told of is part of `leftovers`.
+      ->transform(CLI::Transformer({{"shm-sharing", "leftovers"}}))
       ->check(CLI::IsMember(names))
       ->option_text("CHECK...");
   command->add_flag("--cell", options->cell,

@@ -10,8 +10,10 @@
 
 #include <unistd.h>
 
+#include <map>
 #include <memory>
 #include <set>
+#include <string>
 
 namespace roscell::cli {
 
@@ -43,12 +45,20 @@ void require_terminal() {
                       "the columns are " + joined(names, ", ")};
 }
 
+/// Scripts may still say a column as earlier versions of this major one did.
+std::string present_name(const std::string& name) {
+  static const std::map<std::string, std::string> names{
+      {"drops", "dropped"}, {"id", "instance"}, {"instance-of", "task"}};
+  const auto found = names.find(name);
+  return found == names.end() ? name : found->second;
+}
+
 /// Each list that has the column is sorted by it.
 void sort_by(const std::string& sort, top::controls& begin) {
   if (sort.empty())
     return;
   const bool backwards = sort.front() == '-';
-  const auto name = sort.substr(backwards ? 1 : 0);
+  const auto name = present_name(sort.substr(backwards ? 1 : 0));
   const auto lists = top::all_lists({}, 0);
   bool found = false;
   for (size_t i = 0; i < lists.size(); ++i)
