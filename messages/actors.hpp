@@ -6,7 +6,7 @@
 #include <caf/replies_to.hpp>
 #include <caf/typed_actor.hpp>
 
-/// Every typed handle: the whole protocol inside a node on one page. What
+/// Every typed handle: the whole protocol inside a node on one scroll. What
 /// each message holds stands in the file of its family.
 namespace roscell {
 
@@ -218,7 +218,7 @@ using discovery_actor = introspected_actor::extend<
     // INTERNAL: alarm number N, to look a peer's name up again.
     caf::reacts_to<caf::tick_atom, uint64_t>>;
 
-/// The JOIN DIAGNOSER: finds out why a cell cannot be joined at an address.
+/// The JOIN SCOUT: finds out why a cell cannot be joined at an address.
 using join_diagnoser_actor = introspected_actor::extend<
     // Errors: unreachable (the name does not resolve), timeout.
     caf::replies_to<resolve_host>::with<host_resolved>,
