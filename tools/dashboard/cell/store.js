@@ -1,4 +1,4 @@
-// What is known of the cell. Rooms read it and are told which kinds of things
+// What is known of the cell. Pages read it and are told which kinds of things
 // have changed, together and once a frame, however many events came.
 import { onceAFrame } from '../page/frames.js';
 import { Flights } from './flights.js';
@@ -13,6 +13,7 @@ export class Store {
     this.nodes = new Map();
     this.tasks = new Map();
     this.instances = new Map();
+    this.byNode = null;
     this.metrics = new Map();
     this.free = [];
     this.cells = [];
@@ -58,6 +59,7 @@ export class Store {
   setTasks(rows) {
     this.tasks = new Map();
     this.instances = new Map();
+    this.byNode = null;
     for (const row of this.nodes.values())
       this.placeInstances(row.instances);
     for (const row of rows)
@@ -83,6 +85,7 @@ export class Store {
 
   /** An answer may be older than the end of a task. */
   placeInstances(rows) {
+    this.byNode = null;
     for (const row of rows)
       if (!this.ended.has(row.spec.task))
         this.instances.set(row.spec.instance, row);
@@ -110,6 +113,7 @@ export class Store {
   }
 
   forgetInstances(task) {
+    this.byNode = null;
     this.instancesOf(task).forEach((x) => this.instances.delete(x.spec.instance));
   }
 
@@ -120,8 +124,10 @@ export class Store {
     return [...this.instances.values()].filter((x) => x.spec.task === task);
   }
 
+  /** Looked up for each row of a table, with each event. */
   instancesOn(node) {
-    return [...this.instances.values()].filter((x) => x.node === node);
+    this.byNode ??= groupedByNode(this.instances.values());
+    return this.byNode.get(node) ?? [];
   }
 
   setMetrics(rows) {
@@ -142,4 +148,14 @@ export class Store {
     this.link = { state, since, retryAt };
     this.touch('link');
   }
+}
+
+function groupedByNode(instances) {
+  const groups = new Map();
+  for (const row of instances) {
+    if (!groups.has(row.node))
+      groups.set(row.node, []);
+    groups.get(row.node).push(row);
+  }
+  return groups;
 }

@@ -15,7 +15,7 @@ const WAYS = [
   ['requests', 'Requests', 'r', 'requests to nodes and tasks'],
 ];
 
-/** Rooms that belong to a way without being one. */
+/** Pages that belong to an entry of the menu without being one. */
 const PARENT = { nodes: 'site' };
 
 export class Frame {

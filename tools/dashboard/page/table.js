@@ -104,10 +104,13 @@ export class Table {
   }
 }
 
+// Made once: to make one for each comparison takes longer than to draw the table.
+const WORDS = new Intl.Collator('en', { numeric: true });
+
 function compare(a, b) {
   if (typeof a === 'number' && typeof b === 'number')
     return a - b;
-  return String(a ?? '').localeCompare(String(b ?? ''), 'en', { numeric: true });
+  return WORDS.compare(String(a ?? ''), String(b ?? ''));
 }
 
 /** "51 to 100 of 500", and the way to the others. */
