@@ -8,7 +8,6 @@
 #include "embedding/skills/actor_runtime.hpp"
 #include "embedding/surroundings.hpp"
 #include "embedding/task_calls.hpp"
-#include "messages/type_ids.hpp"
 
 #include <caf/actor_system.hpp>
 #include <caf/actor_system_config.hpp>
@@ -28,7 +27,6 @@ namespace {
 class quiet_system_config : public caf::actor_system_config {
 public:
   explicit quiet_system_config(std::size_t workers) {
-    roscell::add_message_types(*this);
     set("scheduler.policy", caf::atom("sharing"));
     set("scheduler.max-threads", std::max<std::size_t>(workers, 1));
     set("logger.verbosity", caf::atom("quiet"));

@@ -5,7 +5,8 @@
 #include <caf/type_id.hpp>
 
 /// Every type that travels in a message. A type that is missing here does not
-/// compile in a message (CAF_ENABLE_TYPE_ID_CHECKS).
+/// compile in a message (CAF_ENABLE_TYPE_ID_CHECKS). No actor system has to know
+/// them: CAF's registry is for messages that leave the process as its bytes.
 #define ROSCELL_MESSAGE_STRUCTS(X)                                             \
   X(skill_query)                                                               \
   X(skill_list)                                                                \
@@ -213,13 +214,3 @@ CAF_BEGIN_TYPE_ID_BLOCK(roscell, caf::first_custom_type_id)
 
 CAF_END_TYPE_ID_BLOCK(roscell)
 
-namespace caf {
-class actor_system_config;
-}
-
-namespace roscell {
-
-/// Makes the types known to an actor system; to be called before it is made.
-void add_message_types(caf::actor_system_config& config);
-
-} // namespace roscell

@@ -23,7 +23,6 @@ namespace roscell::test {
 
 struct virtual_time_config : caf::actor_system_config {
   virtual_time_config() {
-    roscell::add_message_types(*this);
     set("scheduler.policy", caf::atom("testing"));
   }
 };

@@ -1,7 +1,8 @@
 # What scripts that build share. To be sourced in the root of the tree.
 
-# Compilers' answers are shared between clones of this tree.
-export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 \
+# Compilers' answers are shared between clones of this tree. GCC knows a header
+# that is in a precompiled one by all of its text, so comments count.
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 CCACHE_COMMENTS=1 \
   CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 
 # may_build: whether this user may build here. If not, one line says what to do.

@@ -91,7 +91,7 @@ std::vector<std::string> movable(coordinator_pointer self, size_t count) {
 
 } // namespace
 
-std::vector<cell_move> plan_moves(std::vector<cell_size> cells) {
+std::vector<cell_move> plan_balancing(std::vector<cell_size> cells) {
   std::sort(cells.begin(), cells.end(), [](const auto& x, const auto& y) {
     return x.size != y.size ? x.size > y.size : x.uuid < y.uuid;
   });
@@ -127,7 +127,7 @@ void balance_if_due(coordinator_pointer self) {
   if (!is_slot_arbiter(st))
     return;
   const auto cells = sizes_of(st);
-  for (const auto& move : plan_moves(cells))
+  for (const auto& move : plan_balancing(cells))
     order_move(self, move, cell_of(cells, move.to));
 }
 

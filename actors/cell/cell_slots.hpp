@@ -62,7 +62,7 @@ struct cell_move {
 
 /// The fewest moves after which sizes differ by at most one. The largest cells
 /// keep the remainder, so nobody moves without need.
-std::vector<cell_move> plan_moves(std::vector<cell_size> cells);
+std::vector<cell_move> plan_balancing(std::vector<cell_size> cells);
 
 /// Balances the cells if it is time and this is the slot arbiter.
 void balance_if_due(coordinator_pointer self);

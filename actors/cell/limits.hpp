@@ -109,8 +109,8 @@ constexpr size_t event_text_bytes = 512;
 /// the problem; the removal goes on.
 constexpr seconds unwritten{15};
 
-/// Claims that wait for their turn, and repetitions of one request that wait
-/// for its first reply.
+/// Claims that wait for the placement lock, and repetitions of one request that
+/// wait for its first reply.
 constexpr size_t waiting = 256;
 constexpr size_t same_requests = 64;
 

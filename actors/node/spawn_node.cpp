@@ -17,11 +17,6 @@ namespace roscell {
 
 namespace {
 
-/// Without its type a message would be dropped in silence.
-bool knows_our_types(const caf::actor_system& system) {
-  return system.config().type_names_by_rtti.count(typeid(stop_node)) != 0;
-}
-
 /// What an operator should know of the data directory.
 void publish_data_state(const actor_context& context, const node_data& data) {
   if (!data.put_aside.empty())
@@ -62,11 +57,6 @@ running_node first_events(const node_config& config,
 caf::expected<running_node> spawn_node(caf::actor_system& system,
                                        const node_config& wanted,
                                        const node_additions& additions) {
-  if (!knows_our_types(system))
-    return fail(error_code::internal,
-                "this actor system does not know the messages of a node", "",
-                "call roscell::add_message_types(config) before the "
-                "caf::actor_system is made");
   auto config = wanted;
   if (auto why = complete_config(config))
     return why;

@@ -38,15 +38,13 @@ struct node_additions {
   std::function<findings()> check_host;
 };
 
-/// Starts a node inside `system`, which the caller owns and has configured with
-/// `roscell::add_message_types`. Blocks until its ports are
-/// open. Neither installs signal handlers nor ends the process.
+/// Starts a node inside `system`, which the caller owns. Blocks until its ports
+/// are open. Neither installs signal handlers nor ends the process.
 ///
 /// Errors: conflict (a port or the data directory is in use), unreachable (the
 /// address is not of this host, the container engine that was asked for does
 /// not answer), unauthorized (no permission on the engine's socket),
-/// schema_violation (a bad option or descriptor, named), internal (the system
-/// does not know the types of our messages).
+/// schema_violation (a bad option or descriptor, named).
 caf::expected<running_node> spawn_node(caf::actor_system& system,
                                        const node_config& config,
                                        const node_additions& additions = {});

@@ -28,8 +28,8 @@ constexpr size_t change_waiters = 32;
 /// For the others of a deployment that failed to be removed.
 constexpr seconds rollback{60};
 
-/// For a task's turn, or for the first reply to the same request: whoever asks
-/// gives up before that.
+/// For the placement lock, or for the first reply to the same request: whoever
+/// asks gives up before that.
 constexpr minutes claim{16};
 
 } // namespace task

@@ -51,7 +51,7 @@ struct handler_pipeline_state {
   std::string request;                ///< Message type that it works on.
   std::string handler;                ///< The handler that is at work.
   request_history::ticket ticket = 0; ///< 0: its way is not kept.
-  /// The task whose turn it has, until that is given back; empty: none.
+  /// The task whose placement lock it holds, until it is released; empty: none.
   std::string claimed;
 };
 

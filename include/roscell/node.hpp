@@ -46,16 +46,15 @@ struct node_setup {
 /// refusal. `code` is a word of docs/protocols.md: of a start "conflict" (a
 /// port or the data directory is in use), "unreachable", "unauthorized",
 /// "schema_violation" (a bad option or descriptor, named), "engine_failed" (no
-/// program can be run), "internal" (the actor system does not know our
-/// messages).
+/// program can be run).
 class node_error : public coded_error {
 public:
   using coded_error::coded_error;
 };
 
-/// Makes the messages of a node known to an actor system; to be called before
-/// the system is made. Only for a system that a node is to live in.
-void add_message_types(caf::actor_system_config& config);
+/// Does nothing: an actor system that a node is to live in has to know nothing
+/// of it. Programs that were written for version 0.2.0 call it.
+inline void add_message_types(caf::actor_system_config& /*config*/) {}
 
 /// A node inside this program, like the one that `roscell node` runs. Any
 /// number of them may live in one program, each with a data directory of its
@@ -75,9 +74,8 @@ public:
   /// some 0.1 s. Throws node_error.
   explicit embedded_node(const node_setup& setup);
 
-  /// The same in `system`, which outlives it and knows our messages (see
-  /// `add_message_types`); `workers` is then the system's affair. Actor skills
-  /// have workers of their own here, too.
+  /// The same in `system`, which outlives it; `workers` is then the system's
+  /// affair. Actor skills have workers of their own here, too.
   embedded_node(caf::actor_system& system, const node_setup& setup);
 
   /// Stops it. Waits for what still runs as long as it takes.

@@ -172,8 +172,9 @@ struct task_rolled_back {
   }
 };
 
-/// Asks whether a task request may go on. Tasks take turns from here until
-/// their intent is recorded, so that two never count on the same resources.
+/// Asks whether a task request may go on. One holds the placement lock from
+/// here until its intent is recorded, so that two never count on the same
+/// resources.
 struct claim_task {
   std::string task;
   std::string request;    ///< JSON of the task request.

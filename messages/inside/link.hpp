@@ -43,7 +43,7 @@ struct send_heartbeat {
 
 struct heartbeat_received {
   heartbeat_kind kind = heartbeat_kind::heartbeat;
-  uint32_t sequence = 0; ///< An ack has that of the beat it answers.
+  uint32_t sequence = 0; ///< An ack has that of the heartbeat it answers.
   /// When the heartbeat that an ack answers was sent, by the clock of the boot;
   /// 0: it answers none of the last ones.
   int64_t sent_boot_ms = 0;

@@ -83,20 +83,9 @@ TEST_CASE("several nodes live in one program, each with its own cell") {
   CHECK(asker{second}.ask({{"type", "node_query"}}).at("cell") == "other");
 }
 
-TEST_CASE("an actor system that does not know our messages is refused") {
-  temp_folder folder;
-  caf::actor_system_config config;
-  caf::actor_system system{config};
-  CHECK(code_of([&] {
-          embedded_node{system, setup_in(folder.path())};
-        })
-        == "internal");
-}
-
 TEST_CASE("a node lives in the program's own actor system, too") {
   temp_folder folder;
   caf::actor_system_config config;
-  add_message_types(config);
   caf::actor_system system{config};
   embedded_node node{system, setup_in(folder.path())};
   CHECK(asker{node}.ask({{"type", "node_query"}}).at("identity").at("name")

@@ -51,14 +51,14 @@ int64_t fewest_moves(std::vector<int64_t> sizes) {
 }
 
 TEST_CASE("no cell is asked to move anybody when sizes are even", "[balance]") {
-  CHECK(plan_moves({}).empty());
-  CHECK(plan_moves(cells_of({5})).empty());
-  CHECK(plan_moves(cells_of({0, 0, 0})).empty());
-  CHECK(plan_moves(cells_of({2, 3, 2, 3})).empty());
+  CHECK(plan_balancing({}).empty());
+  CHECK(plan_balancing(cells_of({5})).empty());
+  CHECK(plan_balancing(cells_of({0, 0, 0})).empty());
+  CHECK(plan_balancing(cells_of({2, 3, 2, 3})).empty());
 }
 
 TEST_CASE("an empty cell gets its share from the largest ones", "[balance]") {
-  const auto moves = plan_moves(cells_of({17, 0}));
+  const auto moves = plan_balancing(cells_of({17, 0}));
   REQUIRE(moves.size() == 1);
   CHECK(moves[0].from == "c-0");
   CHECK(moves[0].to == "c-1");
@@ -71,7 +71,7 @@ TEST_CASE("any plan evens out with the fewest moves", "[balance]") {
     std::vector<int64_t> sizes(1 + random() % 8);
     for (auto& x : sizes)
       x = static_cast<int64_t>(random() % 20);
-    const auto moves = plan_moves(cells_of(sizes));
+    const auto moves = plan_balancing(cells_of(sizes));
     CHECK(spread_of(carry_out(sizes, moves)) <= 1);
     int64_t moved = 0;
     for (const auto& x : moves) {

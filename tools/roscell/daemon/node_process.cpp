@@ -35,7 +35,6 @@ namespace {
 class node_system_config : public caf::actor_system_config {
 public:
   node_system_config() {
-    roscell::add_message_types(*this);
     // The default policy polls; this one sleeps until there is work.
     set("scheduler.policy", caf::atom("sharing"));
     set("scheduler.max-threads", size_t{2});

@@ -87,7 +87,6 @@ inline int64_t fence_in(const std::filesystem::path& path) {
 
 struct real_time_config : caf::actor_system_config {
   real_time_config() {
-    roscell::add_message_types(*this);
     set("scheduler.policy", caf::atom("sharing"));
     set("scheduler.max-threads", size_t{1});
   }

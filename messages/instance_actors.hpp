@@ -1,0 +1,113 @@
+#pragma once
+
+#include "messages/forward.hpp"
+
+#include <caf/atom.hpp>
+#include <caf/replies_to.hpp>
+#include <caf/typed_actor.hpp>
+
+/// The typed handles of what runs a node's instances: the runtimes, each skill
+/// instance, and the container supervisor that owns them.
+namespace roscell {
+
+/// The clause that every typed handle includes.
+using introspected_actor =
+    caf::typed_actor<caf::replies_to<state_query>::with<actor_state>>;
+
+/// Who hears of exits and notifications: the container supervisor.
+using container_listener_actor =
+    caf::typed_actor<caf::reacts_to<container_exited>,
+                     caf::reacts_to<instance_notified>,
+                     caf::reacts_to<runtime_problem_changed>>;
+
+/// The RUNTIME: the only actor that starts and stops programs.
+using runtime_actor = introspected_actor::extend<
+    // Errors: engine_failed (missing or not executable entry point, failed
+    // build: details "log_tail").
+    caf::replies_to<prepare_image>::with<image_prepared>,
+    // Errors: engine_failed.
+    caf::replies_to<start_container>::with<container_started>,
+    // Neither fails for a container that is gone already. Errors:
+    // engine_failed (it cannot be killed, its files cannot be removed).
+    caf::replies_to<stop_container>::with<container_stopped>,
+    caf::replies_to<remove_container>::with<container_removed>,
+    caf::replies_to<adopt_container>::with<container_adopted>,
+    caf::reacts_to<hear_container>, caf::reacts_to<fence_container>,
+    caf::reacts_to<ask_for_safety>,
+    // Errors: unknown_task (no log of that instance), conflict (too many
+    // wait for more).
+    caf::replies_to<log_query>::with<log_excerpt>>;
+
+/// The PROCESS RUNTIME: runs skills as supervised processes.
+using process_runtime_actor =
+    runtime_actor::extend<caf::reacts_to<program_ended>,
+                          caf::reacts_to<log_grown>,
+                          // INTERNAL: alarm number N is due.
+                          caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+/// The IMAGE PACKER: looks into one skill folder and packs it.
+using image_packer_actor = introspected_actor::extend<
+    // Errors: engine_failed (missing or not executable entry point, a library
+    // that this host has not).
+    caf::replies_to<prepare_image>::with<image_planned>,
+    // Errors: engine_failed (the disk is full), conflict (nothing is planned).
+    caf::replies_to<pack_image>::with<image_packed>>;
+
+/// The ENGINE RUNTIME: runs skills as containers of Docker or Podman.
+using engine_runtime_actor =
+    runtime_actor::extend<caf::reacts_to<engine_answered>,
+                          caf::reacts_to<engine_streamed>,
+                          caf::reacts_to<engine_log_read>,
+                          // INTERNAL: alarm number N is due.
+                          caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+/// Told of the endpoints of one program: its skill instance.
+using endpoint_listener_actor =
+    caf::typed_actor<caf::reacts_to<endpoints_missing>>;
+
+/// The GRAPH WATCH: what the node's discovery server knows of the programs on
+/// this node.
+using graph_watch_actor = introspected_actor::extend<
+    // What is missing is told to the sender.
+    caf::reacts_to<watch_endpoints>, caf::reacts_to<graph_changed>>;
+
+/// The SKILL INSTANCE: one instance's life, a state machine around a container.
+/// All that comes of it is told to the supervisor as `instance_changed`; the
+/// actor ends with its instance.
+using skill_instance_actor = introspected_actor::extend<
+    caf::reacts_to<start_instance>, caf::reacts_to<stop_instance>,
+    caf::reacts_to<container_exited>, caf::reacts_to<instance_notified>,
+    caf::reacts_to<endpoints_missing>, caf::reacts_to<contact_proven>,
+    caf::reacts_to<contact_lost>, caf::reacts_to<use_environment>,
+    // INTERNAL: a deadline of phase number N has passed.
+    caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+/// Told of every change of an instance: the membership, or the coordinator.
+using instance_listener_actor =
+    caf::typed_actor<caf::reacts_to<instance_changed>>;
+
+/// The CONTAINER SUPERVISOR: owns every skill instance of the node.
+using container_supervisor_actor = introspected_actor::extend<
+    // Replies once the instance runs; the same spec again gets the same answer.
+    // Errors: unknown_operation (no such skill here), unknown_model,
+    // unknown_deployment, engine_failed (with details "instance", "node",
+    // "exit_code", "log_tail"), conflict (the id is in use by another spec, the
+    // node is full, the instance is being removed), schema_violation (the id
+    // cannot be a file name).
+    caf::replies_to<instance_deployment>::with<instance_deployed>,
+    // Replies once they are gone, but for those that are not stop-safe yet;
+    // none is no error. Errors: engine_failed (one cannot be removed).
+    caf::replies_to<instance_removal>::with<instances_removed>,
+    // Errors: unknown_task (no such instance).
+    caf::replies_to<instance_query>::with<instance_description>,
+    // The same. Where the instance is gone its kept log is read.
+    caf::replies_to<log_query>::with<log_excerpt>,
+    caf::replies_to<kept_logs_query>::with<kept_logs>,
+    caf::reacts_to<listen_to_instances>, caf::reacts_to<ends_acknowledged>,
+    caf::reacts_to<use_environment>, caf::reacts_to<contact_proven>,
+    caf::reacts_to<contact_lost>, caf::reacts_to<container_exited>,
+    caf::reacts_to<instance_notified>, caf::reacts_to<runtime_problem_changed>,
+    // INTERNAL: from a skill instance.
+    caf::reacts_to<instance_changed>>;
+
+} // namespace roscell
