@@ -91,13 +91,21 @@ function(roscell_messages target)
   list(REMOVE_DUPLICATES roots)
   list(TRANSFORM roots PREPEND --known=)
   file(GLOB parts_of_tool CONFIGURE_DEPENDS ${tool}/*.py)
+  # All are compiled at once: most of what a source costs is what it includes.
+  set(all ${made}/all.cpp)
+  set(sources)
+  set(includes)
   foreach(package IN LISTS packages)
     set(results ${made}/roscell/ros2/${package}.hpp ${made}/${package}.cpp)
+    list(APPEND sources ${results})
+    string(APPEND includes "#include \"${package}.cpp\"\n")
     add_custom_command(OUTPUT ${results}
       COMMAND ${Python3_EXECUTABLE} -B ${tool} --to ${made}
         ${roots} ${files_of_${package}}
       DEPENDS ${files_of_${package}} ${parts_of_tool} VERBATIM)
-    target_sources(${target} PRIVATE ${results})
   endforeach()
+  file(CONFIGURE OUTPUT ${all} CONTENT "${includes}" @ONLY)
+  set_source_files_properties(${all} PROPERTIES OBJECT_DEPENDS "${sources}")
+  target_sources(${target} PRIVATE ${all})
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${made}>)
 endfunction()

@@ -2,6 +2,7 @@
 #include "tools/roscell/client/find_things.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
+#include "tools/roscell/commands/log_printer.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/describe/describe_view.hpp"
@@ -17,7 +18,6 @@ namespace roscell::cli {
 namespace {
 
 constexpr int64_t shown_log_lines = 10;
-constexpr std::chrono::seconds log_limit{30};
 
 const std::vector<std::string> kinds{"node", "task", "instance", "skill",
                                      "cell"};
