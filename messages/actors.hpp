@@ -68,6 +68,10 @@ using node_agent_actor = introspected_actor::extend<
     caf::replies_to<log_query>::with<log_excerpt>,
     caf::replies_to<kept_logs_query>::with<kept_logs>>;
 
+/// The node agent of this machine.
+using local_agent_actor =
+    node_agent_actor::extend<caf::reacts_to<use_settings>>;
+
 /// The RESOURCE PROBE: answers when asked, at once; it never polls.
 using resource_probe_actor = introspected_actor::extend<
     caf::replies_to<measure_host>::with<host_measured>,
@@ -160,8 +164,9 @@ using membership_actor = introspected_actor::extend<
     // What the coordinator asks the node goes there.
     caf::reacts_to<serve_members>, caf::reacts_to<coordinator_found>,
     caf::reacts_to<presence_seen>, caf::reacts_to<presence_gone>,
-    caf::reacts_to<instance_changed>, caf::reacts_to<frame_received>,
-    caf::reacts_to<heartbeat_received>, caf::reacts_to<session_closed>,
+    caf::reacts_to<instance_changed>, caf::reacts_to<skills_changed>,
+    caf::reacts_to<frame_received>, caf::reacts_to<heartbeat_received>,
+    caf::reacts_to<session_closed>,
     // INTERNAL: a timer of attempt or lease number N.
     caf::reacts_to<caf::tick_atom, uint64_t>>;
 
@@ -221,7 +226,9 @@ using cell_coordinator_actor = introspected_actor::extend<
     // Errors: conflict (the name belongs to another UUID, an old epoch).
     caf::replies_to<register_node>::with<node_registered>,
     caf::replies_to<depart_node>::with<node_departed>,
-    caf::reacts_to<member_lost>,
+    caf::reacts_to<member_lost>, caf::reacts_to<member_skills_changed>,
+    // Of its own node.
+    caf::reacts_to<skills_changed>,
     // From a member or the local supervisor.
     caf::reacts_to<instance_changed>,
     caf::replies_to<cell_query>::with<cell_description>,
@@ -313,6 +320,7 @@ using task_change_waiter_actor = introspected_actor::extend<
 using node_actor = introspected_actor::extend<
     caf::replies_to<node_query>::with<node_description>,
     // What unauthenticated peers may know.
-    caf::replies_to<hello_query>::with<node_hello>, caf::reacts_to<stop_node>>;
+    caf::replies_to<hello_query>::with<node_hello>,
+    caf::reacts_to<use_settings>, caf::reacts_to<stop_node>>;
 
 } // namespace roscell

@@ -60,6 +60,14 @@ inline constexpr event_kind store_caught_up{
 inline constexpr event_kind record_ignored{
     "record_ignored", "key", "every node, at its start",
     "A record of the data directory cannot be read: `table` and `reason`."};
+inline constexpr event_kind configuration_read{
+    "configuration_read", "node", "a node that was sent SIGHUP",
+    "Its configuration and its skills were read anew: the options that have "
+    "`changed`, and those of which that `needs_restart`."};
+inline constexpr event_kind configuration_refused{
+    "configuration_refused", "node", "a node that was sent SIGHUP",
+    "Its configuration cannot be used, and nothing has changed: `reason`, with "
+    "the file and the line, and `hint`."};
 inline constexpr event_kind edge_problem{
     "edge_trouble", "node", "every node",
     "Something of the host or the network does not work: `message`."};
@@ -265,6 +273,19 @@ inline constexpr event_kind skill_instance_died{
 inline constexpr event_kind skill_refused{
     "skill_refused", "folder of the skill", "its node",
     "It cannot be used: what is wrong with it."};
+inline constexpr event_kind skill_added{
+    "skill_added", "operation", "its node and the coordinator",
+    "A node has a build of it that it had not: `node`, `hash`, `version`, and "
+    "on the node `path`."};
+inline constexpr event_kind skill_removed{
+    "skill_removed", "operation", "its node and the coordinator",
+    "A node has that build no more, as its folder was edited or has gone: "
+    "`node`, `hash`, `version`, and on the node `path`. What runs of it goes "
+    "on."};
+inline constexpr event_kind skills_not_watched{
+    "skills_not_watched", "node", "every node",
+    "Not all folders of skills can be watched, so that what changes there is "
+    "seen after SIGHUP only; once a `reason`, with a `hint`."};
 inline constexpr event_kind fence_failed{
     "fence_failed", "instance", "its node",
     "Its fence cannot be moved on; once, until it can be again: `reason` and "

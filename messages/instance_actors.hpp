@@ -86,6 +86,19 @@ using skill_instance_actor = introspected_actor::extend<
 using instance_listener_actor =
     caf::typed_actor<caf::reacts_to<instance_changed>>;
 
+/// Told of the node's skills when they are others: the membership, or the
+/// coordinator.
+using skill_listener_actor = caf::typed_actor<caf::reacts_to<skills_changed>>;
+
+/// The SKILL WATCHER: keeps what the node knows of its skills as it lies in
+/// their folders. It blocks on the disk.
+using skill_watcher_actor =
+    introspected_actor::extend<caf::reacts_to<skill_folders_touched>,
+                               // Other folders, which are read at once.
+                               caf::reacts_to<use_settings>,
+                               // INTERNAL: alarm number N is due.
+                               caf::reacts_to<caf::tick_atom, uint64_t>>;
+
 /// The CONTAINER SUPERVISOR: owns every skill instance of the node.
 using container_supervisor_actor = introspected_actor::extend<
     // Replies once the instance runs; the same spec again gets the same answer.

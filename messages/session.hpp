@@ -118,6 +118,9 @@ struct node_registered {
   /// The cell's discovery server tells the member's all that it knows anew
   /// after each registration.
   bool tells_anew = false;
+  /// The coordinator takes `skills_changed`; one of an earlier version counts
+  /// it as a frame that makes no sense.
+  bool hears_skills = false;
 
   static constexpr auto fields() {
     return field_list{required("cell", &node_registered::cell),
@@ -126,7 +129,8 @@ struct node_registered {
                       required("verdicts", &node_registered::verdicts),
                       optional("cell_uuid", &node_registered::cell_uuid),
                       one_or_many("discovery", &node_registered::discovery),
-                      optional("tells_anew", &node_registered::tells_anew)};
+                      optional("tells_anew", &node_registered::tells_anew),
+                      optional("hears_skills", &node_registered::hears_skills)};
   }
 };
 
@@ -255,6 +259,20 @@ struct instance_changed {
 
   static constexpr auto fields() {
     return field_list{required("instance", &instance_changed::instance)};
+  }
+};
+
+/// Member to coordinator, a notice: its skills are these from now on. It is
+/// told after the registration whose answer `hears_skills`, and not to others.
+struct skills_changed {
+  static constexpr const char* type = "skills_changed";
+  std::vector<installed_skill> skills;       ///< All that it has.
+  std::vector<skill_problem> refused_skills; ///< The first of them.
+
+  static constexpr auto fields() {
+    return field_list{
+        required("skills", &skills_changed::skills),
+        optional("refused_skills", &skills_changed::refused_skills)};
   }
 };
 

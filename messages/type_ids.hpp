@@ -5,8 +5,9 @@
 #include <caf/type_id.hpp>
 
 /// Every type that travels in a message. A type that is missing here does not
-/// compile in a message (CAF_ENABLE_TYPE_ID_CHECKS). No actor system has to know
-/// them: CAF's registry is for messages that leave the process as its bytes.
+/// compile in a message (CAF_ENABLE_TYPE_ID_CHECKS). No actor system has to
+/// know them: CAF's registry is for messages that leave the process as its
+/// bytes.
 #define ROSCELL_MESSAGE_STRUCTS(X)                                             \
   X(skill_query)                                                               \
   X(skill_list)                                                                \
@@ -82,6 +83,7 @@
   X(instance_removal)                                                          \
   X(instances_removed)                                                         \
   X(instance_changed)                                                          \
+  X(skills_changed)                                                            \
   X(event)                                                                     \
   X(state_query)                                                               \
   X(actor_state)                                                               \
@@ -128,6 +130,7 @@
   X(endpoints_missing)                                                         \
   X(graph_changed)                                                             \
   X(use_environment)                                                           \
+  X(skill_folders_touched)                                                     \
   X(stop_instance)                                                             \
   X(listen_to_instances)                                                       \
   X(store_record)                                                              \
@@ -169,6 +172,7 @@
   X(register_node)                                                             \
   X(depart_node)                                                               \
   X(member_lost)                                                               \
+  X(member_skills_changed)                                                     \
   X(peer_opened)                                                               \
   X(peer_lost)                                                                 \
   X(peer_status_reported)                                                      \
@@ -204,6 +208,7 @@
   X(examination)                                                               \
   X(process_request)                                                           \
   X(request_processed)                                                         \
+  X(use_settings)                                                              \
   X(stop_node)
 
 CAF_BEGIN_TYPE_ID_BLOCK(roscell, caf::first_custom_type_id)
@@ -213,4 +218,3 @@ CAF_BEGIN_TYPE_ID_BLOCK(roscell, caf::first_custom_type_id)
 #undef ROSCELL_ADD_TYPE_ID
 
 CAF_END_TYPE_ID_BLOCK(roscell)
-

@@ -59,6 +59,7 @@ std::vector<schema_entry> node_schemas() {
       made<session_accepted>({}, "handshake"),
       made<session_notice>(),
       made<instance_changed>(),
+      made<skills_changed>(),
       made<cell_standing>(),
       made<cell_changed>(),
   };

@@ -52,6 +52,19 @@ struct member_lost {
   }
 };
 
+/// An event: a member has other skills.
+struct member_skills_changed {
+  std::string uuid;
+  member_actor member; ///< Ignored unless it is the row's present one.
+  skills_changed now;
+
+  static constexpr auto fields() {
+    return field_list{required("uuid", &member_skills_changed::uuid),
+                      required("member", &member_skills_changed::member),
+                      required("now", &member_skills_changed::now)};
+  }
+};
+
 /// An event: a session with another coordinator is open. The coordinator sends
 /// its status to the peer in return.
 struct peer_opened {

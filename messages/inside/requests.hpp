@@ -2,7 +2,9 @@
 
 #include "messages/actors.hpp"
 
+#include <map>
 #include <string>
+#include <vector>
 
 /// What requests from outside become inside a node: the ROUTER and its
 /// pipelines are told these, and who relays requests, and the NODE.
@@ -66,6 +68,21 @@ struct request_processed {
 
   static constexpr auto fields() {
     return field_list{required("text", &request_processed::text)};
+  }
+};
+
+/// What can change of a node that runs. Each part of it takes what is its own.
+struct use_settings {
+  std::vector<std::string> skill_dirs; ///< Besides the usual ones.
+  std::map<std::string, std::string> labels;
+  std::vector<std::string> devices; ///< Offered besides those found.
+  double cpu_floor = 0;
+
+  static constexpr auto fields() {
+    return field_list{required("skill_dirs", &use_settings::skill_dirs),
+                      required("labels", &use_settings::labels),
+                      required("devices", &use_settings::devices),
+                      required("cpu_floor", &use_settings::cpu_floor)};
   }
 };
 

@@ -360,6 +360,13 @@ struct use_environment {
   }
 };
 
+/// From the edge: something has changed in the folders of skills.
+struct skill_folders_touched {
+  static constexpr auto fields() {
+    return field_list{};
+  }
+};
+
 /// Replaces whom the supervisor tells of changes.
 struct listen_to_instances {
   instance_listener_actor listener;

@@ -40,9 +40,9 @@ void check_message(const json& message) {
             node_registered, node_departure, node_departed, resource_query,
             resource_report, figures_query, figures_report, instance_deployment,
             instance_deployed, instance_removal, instances_removed,
-            instance_changed, instance_reservation, instances_reserved,
-            session_hello, session_challenge, session_proof, session_accepted>(
-      message);
+            instance_changed, skills_changed, instance_reservation,
+            instances_reserved, session_hello, session_challenge, session_proof,
+            session_accepted>(message);
 }
 
 } // namespace

@@ -87,7 +87,8 @@ std::vector<trial> message_trials() {
                node_departed, resource_query, resource_report, figures_query,
                figures_report, instance_deployment, instance_deployed,
                instance_removal, instances_removed, instance_changed,
-               instance_reservation, instances_reserved>(result);
+               skills_changed, instance_reservation, instances_reserved>(
+      result);
   try_messages<cell_formation, cell_formed, node_release, node_released,
                node_drain, node_drained, node_undrain, node_undrained,
                cell_rebalance, cell_rebalanced, node_transfer, node_transferred,
