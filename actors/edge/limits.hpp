@@ -60,4 +60,16 @@ constexpr int64_t part_bytes = 64 * kib;
 
 } // namespace log
 
+// Folders that are watched.
+
+namespace folder {
+
+/// Who writes without end wakes the io thread this often at most.
+constexpr milliseconds change_pause{50};
+/// Folders in one watch. The kernel keeps some 1 KiB for each, and gives a user
+/// 8192 and more.
+constexpr size_t watched = 4096;
+
+} // namespace folder
+
 } // namespace roscell::limits

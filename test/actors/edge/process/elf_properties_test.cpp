@@ -13,8 +13,8 @@ using namespace roscell;
 namespace {
 
 /// The beginning of a program with program headers of these types.
-std::string program(const std::vector<uint32_t>& types,
-                    uint16_t machine = EM_X86_64) {
+std::string elf_program(const std::vector<uint32_t>& types,
+                        uint16_t machine = EM_X86_64) {
   Elf64_Ehdr header{};
   std::memcpy(header.e_ident, ELFMAG, SELFMAG);
   header.e_ident[EI_CLASS] = ELFCLASS64;
@@ -38,21 +38,21 @@ bool is_static(const std::string& bytes) {
 } // namespace
 
 TEST_CASE("a program tells for which machine it is") {
-  CHECK(parse_elf(program({}))->architecture == "amd64");
-  CHECK(parse_elf(program({}, EM_AARCH64))->architecture == "arm64");
-  CHECK(parse_elf(program({}, EM_ARM))->architecture == "arm");
-  CHECK(parse_elf(program({}, EM_386))->architecture == "386");
-  CHECK(parse_elf(program({}, EM_S390))->architecture.empty());
+  CHECK(parse_elf(elf_program({}))->architecture == "amd64");
+  CHECK(parse_elf(elf_program({}, EM_AARCH64))->architecture == "arm64");
+  CHECK(parse_elf(elf_program({}, EM_ARM))->architecture == "arm");
+  CHECK(parse_elf(elf_program({}, EM_386))->architecture == "386");
+  CHECK(parse_elf(elf_program({}, EM_S390))->architecture.empty());
 }
 
 TEST_CASE("only a program without anything dynamic is static") {
-  CHECK(is_static(program({PT_LOAD, PT_NOTE})));
-  CHECK_FALSE(is_static(program({PT_LOAD, PT_INTERP, PT_DYNAMIC})));
-  CHECK_FALSE(is_static(program({})));
+  CHECK(is_static(elf_program({PT_LOAD, PT_NOTE})));
+  CHECK_FALSE(is_static(elf_program({PT_LOAD, PT_INTERP, PT_DYNAMIC})));
+  CHECK_FALSE(is_static(elf_program({})));
 }
 
 TEST_CASE("what is damaged is never taken for static") {
-  const auto whole = program({PT_LOAD, PT_NOTE});
+  const auto whole = elf_program({PT_LOAD, PT_NOTE});
   for (size_t size = SELFMAG; size < whole.size(); ++size)
     CHECK_FALSE(is_static(whole.substr(0, size)));
   auto far = whole;
