@@ -4,6 +4,7 @@
 #include "actors/cell/cell_members.hpp"
 #include "actors/cell/cell_peers.hpp"
 #include "actors/cell/cell_questions.hpp"
+#include "actors/cell/cell_skills.hpp"
 #include "actors/cell/cell_slots.hpp"
 #include "actors/cell/moves/abandoned_steps.hpp"
 #include "actors/cell/moves/task_move.hpp"
@@ -171,6 +172,10 @@ cell_coordinator(coordinator_pointer self, const actor_context& context,
       [self](const register_node& x) { return register_member(self, x); },
       [self](const depart_node& x) { return depart_member(self, x); },
       [self](const member_lost& x) { on_member_lost(self, x); },
+      [self](const member_skills_changed& x) {
+        on_member_skills_changed(self, x);
+      },
+      [self](const skills_changed& x) { on_own_skills_changed(self, x); },
       [self](const instance_changed& x) { on_instance_changed(self, x); },
       [self](const cell_query&) { return describe(self); },
       [self](const cell_list_query&) { return cells_seen(self->state); },

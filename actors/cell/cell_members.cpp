@@ -114,7 +114,7 @@ void on_registration_persisted(coordinator_pointer self,
   promise.deliver(
       node_registered{st.setup.cell, st.setup.self.name, st.setup.incarnation,
                       take_up_instances(self, node), st.setup.cell_uuid,
-                      place_of(st, *entry), true});
+                      place_of(st, *entry), true, true});
   settle_arrivals(self, who.uuid, {});
   on_node_returned(self, who.uuid);
 }

@@ -150,6 +150,18 @@ void on_instance_changed(self_pointer self, const instance_changed& event) {
     st.unsent[event.instance.spec.instance] = event;
 }
 
+/// They are part of the next registration, and one that is under way is told
+/// of them once it is answered.
+void on_skills_changed(self_pointer self, const skills_changed& now) {
+  auto& st = self->state;
+  st.config.skills = now.skills;
+  st.config.refused_skills = now.refused_skills;
+  if (st.phase == phase::joined || st.phase == phase::leaving)
+    notify_skills(self);
+  else
+    st.skills_unsent = true;
+}
+
 void on_tick(self_pointer self, uint64_t number) {
   auto& st = self->state;
   if (!st.timer.rings(number))
@@ -243,6 +255,7 @@ membership_actor::behavior_type membership(self_pointer self,
       [self](const instance_changed& event) {
         on_instance_changed(self, event);
       },
+      [self](const skills_changed& now) { on_skills_changed(self, now); },
       [self](const frame_received& frame) {
         if (is_from_session(self))
           on_frame(self, frame);

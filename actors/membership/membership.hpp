@@ -152,6 +152,8 @@ struct membership_status : held_session {
   bool registration_sent = false;
   /// Changes since `instances` were asked for, by instance.
   std::map<std::string, instance_changed> unsent;
+  bool skills_unsent = false; ///< They are others since the registration.
+  bool skills_heard = false;  ///< The coordinator takes word of them.
 
   request_router_actor router; ///< Of this node; invalid while it starts.
   alarm timer;

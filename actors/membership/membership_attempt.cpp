@@ -84,6 +84,9 @@ void on_registered(self_pointer self, const node_registered& reply) {
   apply(self, reply.verdicts);
   for (const auto& [instance, event] : std::exchange(st.unsent, {}))
     notify(self, event);
+  st.skills_heard = reply.hears_skills;
+  if (std::exchange(st.skills_unsent, false))
+    notify_skills(self);
 }
 
 node_registration registration_of(const membership_status& st) {
@@ -128,6 +131,7 @@ void maybe_register(self_pointer self) {
     else
       on_error(self, reply.error());
   };
+  st.skills_unsent = false;
   st.registered_boot_ms = st.context.boot_now_ms(self->system());
   st.frames.call(message_json(registration_of(st)),
                  self->clock().now() + limits::membership::registration,

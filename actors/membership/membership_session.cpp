@@ -204,6 +204,17 @@ void notify(self_pointer self, const instance_changed& event) {
                    {"state", to_word(x.instance.state)}});
 }
 
+void notify_skills(self_pointer self) {
+  auto& st = self->state;
+  if (!st.skills_heard)
+    return;
+  const auto& config = st.config;
+  if (!st.frames.notify(
+          message_json(skills_changed{config.skills, config.refused_skills})))
+    publish_event(self, events::event_too_large,
+                  {{"fact", skills_changed::type}});
+}
+
 namespace {
 
 void stop(self_pointer self, const std::string& instance) {

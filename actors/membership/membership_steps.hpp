@@ -114,6 +114,9 @@ void on_session_lost(self_pointer self, const std::string& reason);
 /// Tells the coordinator, less of it where the whole does not fit into a frame.
 void notify(self_pointer self, const instance_changed& event);
 
+/// Tells the coordinator which skills the node has by now.
+void notify_skills(self_pointer self);
+
 // -- program_servers.cpp: the node's own discovery server ---------------------
 
 /// To be called at the start and after each registration, also where there is

@@ -238,12 +238,22 @@ void node_failures::postpone(const std::string& instance,
   auto& x = i->second;
   x.abandoned = false;
   x.problem = problem;
+  x.being_placed = false;
   x.due = now + x.pause.next();
 }
 
 void node_failures::pause(const std::string& instance, time_point until) {
-  if (const auto i = abandoned_.find(instance); i != abandoned_.end())
-    i->second.due = until;
+  const auto i = abandoned_.find(instance);
+  if (i == abandoned_.end())
+    return;
+  i->second.being_placed = true;
+  i->second.due = until;
+}
+
+void node_failures::hurry(time_point now) {
+  for (auto& [instance, x] : abandoned_)
+    if (!x.problem.empty() && !x.being_placed && !x.is_alone)
+      x.due = std::min(x.due, now);
 }
 
 time_point node_failures::fenced_until(const step_key& step) const {

@@ -58,6 +58,7 @@ struct abandoned_step {
   /// It is not placed anew: its host starts it alone, whenever that is switched
   /// on.
   bool is_alone = false;
+  bool being_placed = false; ///< An attempt goes on.
 };
 
 /// The node failure table: where each instance may run, and which steps are to
@@ -172,6 +173,9 @@ public:
 
   /// It is not due before then: it is being placed.
   void pause(const std::string& instance, time_point until);
+
+  /// What has had no place is tried again now, once its fences have passed.
+  void hurry(time_point now);
 
   /// Those that are to be placed now, by task.
   std::map<std::string, std::vector<abandoned_step>> due(time_point now) const;

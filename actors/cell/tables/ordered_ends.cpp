@@ -130,6 +130,12 @@ bool ordered_ends::postpone(const std::string& instance, bool is_busy,
   return true;
 }
 
+void ordered_ends::hurry(time_point now) {
+  for (auto& [instance, x] : ends_)
+    if (x.state == order_state::due)
+      x.due = std::min(x.due, now);
+}
+
 ordered_ends::time_point ordered_ends::next_due() const {
   auto result = time_point::max();
   for (const auto& [instance, x] : ends_)

@@ -112,6 +112,9 @@ public:
   /// where something else goes on with it for longer.
   bool postpone(const std::string& instance, bool is_busy, time_point now);
 
+  /// What has had no place is tried again now.
+  void hurry(time_point now);
+
   time_point next_due() const;
 
   size_t size() const {

@@ -246,6 +246,12 @@ std::vector<drain_record> drain_table::due(time_point now) const {
   return result;
 }
 
+void drain_table::hurry(time_point now) {
+  for (auto& [uuid, x] : nodes_)
+    if (!x.problem.empty())
+      x.due = std::min(x.due, now);
+}
+
 drain_table::time_point drain_table::next_due() const {
   auto result = time_point::max();
   for (const auto& [uuid, x] : nodes_)

@@ -180,6 +180,10 @@ public:
 
   /// Those whose instances are to be moved now.
   std::vector<drain_record> due(time_point now) const;
+
+  /// What could not go is tried again now.
+  void hurry(time_point now);
+
   time_point next_due() const;
 
 private:

@@ -186,13 +186,22 @@ void on_request(self_pointer self, uint64_t id, const session_inquiry& x) {
 
 void on_notice(self_pointer self, const json& body) {
   auto& st = self->state;
-  if (body.value("type", "") != instance_changed::type
-      || st.phase != phase::active)
+  if (st.phase != phase::active)
     return;
-  auto event = decode<instance_changed>(body);
-  if (auto* x = std::get_if<instance_changed>(&event)) {
-    x->instance.node = st.peer.name;
-    self->send(st.coordinator, *x);
+  const auto type = body.value("type", "");
+  if (type == instance_changed::type) {
+    auto event = decode<instance_changed>(body);
+    if (auto* x = std::get_if<instance_changed>(&event)) {
+      x->instance.node = st.peer.name;
+      self->send(st.coordinator, *x);
+    }
+  } else if (type == skills_changed::type) {
+    auto event = decode<skills_changed>(body);
+    if (auto* x = std::get_if<skills_changed>(&event))
+      self->send(st.coordinator,
+                 member_skills_changed{st.peer.uuid,
+                                       caf::actor_cast<member_actor>(self),
+                                       std::move(*x)});
   }
 }
 

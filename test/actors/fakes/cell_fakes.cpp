@@ -16,6 +16,12 @@ void accept(fake_site* site, const session_admitted& event) {
                                               member, event, site->base.actor));
 }
 
+node_registered answer_of(const fake_coordinator& base) {
+  return {base.cell,     base.name,        base.incarnation,
+          base.verdicts, base.cell_uuid,   base.discovery,
+          false,         base.hears_skills};
+}
+
 caf::result<node_registered> enter(fake_site* site, const register_node& x) {
   auto& base = site->base;
   if (base.refusal)
@@ -30,8 +36,7 @@ caf::result<node_registered> enter(fake_site* site, const register_node& x) {
   if (row.member && row.member != x.member)
     caf::anon_send(row.member, close_session{"it has registered again"});
   row = {who, x.member, true, "", x.registration};
-  return node_registered{base.cell,     base.name,      base.incarnation,
-                         base.verdicts, base.cell_uuid, base.discovery};
+  return answer_of(base);
 }
 
 node_departed drop(fake_site* site, const depart_node& x) {
@@ -68,13 +73,12 @@ caf::behavior coordinator(caf::event_based_actor* self, fake_site* site) {
       [=](caf::ok_atom) {
         auto& base = site->base;
         for (auto& promise : std::exchange(base.unanswered, {}))
-          promise.deliver(node_registered{base.cell, base.name,
-                                          base.incarnation, base.verdicts,
-                                          base.cell_uuid, base.discovery});
+          promise.deliver(answer_of(base));
       },
       [=](const depart_node& x) { return drop(site, x); },
       [=](const member_lost& event) { lose(site, event); },
       [=](const instance_changed& x) { site->base.changes.push_back(x); },
+      [=](const member_skills_changed& x) { site->base.skills.push_back(x); },
       [=](const route_request& x) {
         site->base.asked.push_back(json::parse(x.text));
         return request_routed{site->base.answer.dump(), ""};

@@ -44,6 +44,8 @@ struct fake_coordinator {
   std::vector<member_actor> members;    ///< All that were ever made.
   std::vector<instance_verdict> verdicts;
   std::vector<instance_changed> changes;
+  std::vector<member_skills_changed> skills; ///< As members have told.
+  bool hears_skills = true; ///< Else it is of an earlier version.
   std::vector<member_lost> losses;
   std::optional<failure> refusal; ///< Of registrations.
   bool mute = false;              ///< Does not answer registrations.

@@ -1,5 +1,6 @@
 #include "actors/edge/session/limits.hpp"
 #include "test/actors/fakes/cell_fakes.hpp"
+#include "test/actors/fakes/supervision_fakes.hpp"
 
 namespace {
 
@@ -199,6 +200,61 @@ TEST_CASE_METHOD(membership_test, "a change during the registration is told "
   CHECK(state() == node_state::member);
   REQUIRE(site.base.changes.size() == 1);
   CHECK(site.base.changes[0] == change);
+}
+
+namespace {
+
+skills_changed one_skill() {
+  installed_skill skill;
+  skill.hash = std::string(64, 'a');
+  skill.version = "1";
+  skill.descriptor = json::parse(echo_descriptor()).get<skill_descriptor>();
+  return {{skill}, {{"/skills/half/skill.json", "", "is half copied"}}};
+}
+
+} // namespace
+
+TEST_CASE_METHOD(membership_test, "the coordinator hears of other skills at "
+                                  "once, and of all at a registration") {
+  form_cell();
+  caf::anon_send(node.membership, one_skill());
+  site.pass(1ms);
+  REQUIRE(site.base.skills.size() == 1);
+  CHECK(site.base.skills[0].uuid == node.identity.uuid);
+  CHECK(site.base.skills[0].member == site.base.rows.at("arm-1").member);
+  CHECK(site.base.skills[0].now == one_skill());
+  cut(*node.link);
+  site.pass(40s);
+  REQUIRE(state() == node_state::member);
+  CHECK(site.base.rows.at("arm-1").registration.skills == one_skill().skills);
+  CHECK(site.base.rows.at("arm-1").registration.refused_skills
+        == one_skill().refused_skills);
+  CHECK(site.base.skills.size() == 1);
+}
+
+TEST_CASE_METHOD(membership_test, "skills that change during the registration "
+                                  "are told after it") {
+  site.base.mute = true;
+  form_cell();
+  CHECK(state() == node_state::joining);
+  caf::anon_send(node.membership, one_skill());
+  site.pass(1s);
+  CHECK(site.base.skills.empty());
+  REQUIRE(site.base.unanswered.size() == 1);
+  caf::anon_send(caf::actor_cast<caf::actor>(site.base.actor), caf::ok_atom_v);
+  site.pass(1s);
+  REQUIRE(site.base.skills.size() == 1);
+  CHECK(site.base.skills[0].now == one_skill());
+}
+
+TEST_CASE_METHOD(membership_test, "a coordinator of an earlier version is told "
+                                  "of skills at registrations only") {
+  site.base.hears_skills = false;
+  form_cell();
+  caf::anon_send(node.membership, one_skill());
+  site.pass(1s);
+  CHECK(site.base.skills.empty());
+  CHECK(state() == node_state::member);
 }
 
 TEST_CASE_METHOD(membership_test, "a registration that is not answered is "

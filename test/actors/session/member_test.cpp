@@ -169,7 +169,9 @@ TEST_CASE_METHOD(member_test, "the first request must be a registration") {
 TEST_CASE_METHOD(member_test, "nothing is told of a node that has not "
                               "registered") {
   notice(message_json(instance_changed{some_row("t-a-1", "t")}));
+  notice(message_json(skills_changed{}));
   CHECK(site.base.changes.empty());
+  CHECK(site.base.skills.empty());
   auto reply = time.ask<resource_report>(it, resource_query{});
   site.pass(0s);
   CHECK(to_failure((*reply)->error()).code == error_code::unreachable);

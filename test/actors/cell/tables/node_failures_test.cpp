@@ -195,4 +195,27 @@ TEST_CASE("A step without a place is tried again with longer pauses",
   CHECK(x.next_due() == node_failures::time_point::max());
 }
 
+TEST_CASE("What has had no place can be hurried, but not past a fence",
+          "[node_failures]") {
+  node_failures x;
+  x.abandon(lost_at("i", "left", lost_time(10s)));
+  x.hurry(lost_time(1s));
+  CHECK(x.next_due() == lost_time(10s)); // It has not been tried.
+  x.pause("i", lost_time(10min));
+  x.postpone("i", "no room", lost_time(11s));
+  x.hurry(lost_time(11s));
+  CHECK(x.next_due() == lost_time(11s));
+  SECTION("nor while it is being placed") {
+    x.pause("i", lost_time(10min));
+    x.hurry(lost_time(12s));
+    CHECK(x.next_due() == lost_time(10min));
+  }
+  SECTION("that still counts") {
+    x.order(fenced_place("i", "left"));
+    x.node_lost("uuid-of-left", lost_time(0s));
+    x.hurry(lost_time(12s));
+    CHECK(x.next_due() == lost_time(60s));
+  }
+}
+
 } // namespace roscell::test

@@ -154,4 +154,16 @@ TEST_CASE("Overdue removals are bounded", "[removal_table]") {
   CHECK(table.size() == limits::task::overdue_removals);
 }
 
+TEST_CASE("What has had no place can be hurried", "[ordered_ends]") {
+  ordered_ends x;
+  x.restore("low", order_of("i"), true, hour_and(0s));
+  REQUIRE(x.take_due(hour_and(0s)).size() == 1);
+  x.hurry(hour_and(0s));
+  CHECK(x.next_due() == never); // It is being started.
+  REQUIRE(x.postpone("i", false, hour_and(1s)));
+  REQUIRE(x.next_due() > hour_and(1s));
+  x.hurry(hour_and(1s));
+  CHECK(x.next_due() == hour_and(1s));
+}
+
 } // namespace roscell::test
