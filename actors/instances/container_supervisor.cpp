@@ -26,7 +26,7 @@ caf::error check(container_supervisor_self self, const instance_spec& spec) {
     return fail(error_code::schema_violation,
                 "an instance id of letters, digits, '_', '-' and '.' is needed",
                 "/spec/instance");
-  const auto* folder = st.config.skills->find(spec.skill);
+  const auto folder = st.config.skills->get()->find(spec.skill);
   if (folder == nullptr)
     return fail(error_code::unknown_operation,
                 "node '" + st.config.node + "' has no skill "
@@ -65,6 +65,7 @@ caf::result<instance_deployed> begin(container_supervisor_self self,
   auto& x = self->state.instances[spec.instance];
   x = supervised_instance{};
   x.row.spec = spec;
+  x.skill = self->state.config.skills->get()->find(spec.skill);
   x.row.node = self->state.config.node;
   x.row.problem = self->state.problem;
   x.started_in = self->state.config.boot;

@@ -4,7 +4,7 @@
 #include "actors/edge/process/notify_socket.hpp"
 #include "actors/edge/process/skill_grants.hpp"
 #include "actors/instances/life/skill_metrics.hpp"
-#include "actors/instances/skills/skill_catalogue.hpp"
+#include "actors/instances/skills/current_skills.hpp"
 #include "messages/messages.hpp"
 
 #include <caf/error.hpp>
@@ -22,7 +22,7 @@ struct container_supervisor_config {
   actor_context context;
   std::string node;    ///< The node's name, for rows.
   std::string address; ///< Where it is, without a port.
-  shared_skill_catalogue skills;
+  shared_skills skills;
   /// Spawns the runtime; called again when it has died.
   std::function<runtime_actor(container_listener_actor)> make_runtime;
   /// That runtime needs an image of a skill before it can start it.
@@ -53,6 +53,9 @@ struct container_supervisor_config {
 /// An instance as the supervisor sees it.
 struct supervised_instance {
   instance_row row;
+  /// As it was when the instance was deployed, or the node began; null: the
+  /// node has not had it.
+  shared_skill_folder skill;
   skill_metrics_table metrics; ///< What its skill has told.
   quiet_notice quiet;          ///< What of it the cell has been told.
   skill_instance_actor actor;  ///< Null once the instance has ended.

@@ -66,6 +66,7 @@ void spawn_actor(container_supervisor_pointer self, supervised_instance& x,
       st.runtime,
       st.config.store,
       st.config.skills,
+      x.skill,
       x.row,
       adopt,
       st.config.builds_images,
@@ -217,6 +218,7 @@ void restore(container_supervisor_pointer self) {
     auto& x = st.instances[row.spec.instance];
     x.row = std::move(row);
     x.row.node = st.config.node;
+    x.skill = st.config.skills->get()->find(x.row.spec.skill);
     x.started_in = word_of(st.config.started_in, x.row.spec.instance);
     // Nobody knows what it has done meanwhile.
     if (is_live(x.row.state))

@@ -101,6 +101,11 @@ constexpr size_t errors = 20;
 constexpr size_t published_problems = 32;
 constexpr size_t reported_text_bytes = kib;
 
+/// A folder that is being copied is read once nothing has changed for so long,
+constexpr milliseconds quiet{300};
+/// but folders that never rest keep no other one from being read.
+constexpr seconds longest_unrest{5};
+
 } // namespace skill
 
 } // namespace roscell::limits

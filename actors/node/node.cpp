@@ -38,8 +38,9 @@ node_description first_draft(node_pointer self, const node_query& query) {
   result.version = program_version;
   result.runtime = parts.config.runtime;
   result.started_unix_ms = self->state.started_unix_ms;
-  result.skills = parts.skills;
-  result.refused_skills = parts.refused_skills;
+  const auto skills = parts.skills->get();
+  result.skills = skills->skills();
+  result.refused_skills = skills->published_problems();
   result.limits = parts.limits;
   result.stored_bytes = static_cast<int64_t>(parts.database->bytes_written());
   if (query.actors)
@@ -214,6 +215,10 @@ node_actor::behavior_type node(node_pointer self, const node_parts& parts) {
       },
       [self](const node_query& query) { return describe(self, query); },
       [self](const hello_query&) { return greet(self); },
+      [self](const use_settings& x) {
+        self->send(self->state.parts.agent, x);
+        self->send(self->state.parts.watcher, x);
+      },
       [self](const stop_node&) { stop(self); },
   };
 }

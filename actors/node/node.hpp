@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/instances/skills/current_skills.hpp"
 #include "actors/node/node_edges.hpp"
 #include "actors/requests/request_context.hpp"
 #include "messages/messages.hpp"
@@ -21,10 +22,10 @@ struct node_parts {
   std::shared_ptr<sqlite_store> database; ///< Only to see what was written.
   std::shared_ptr<node_services> services;
   node_identity identity;
-  node_agent_actor agent;
-  std::vector<installed_skill> skills;
+  local_agent_actor agent;
+  shared_skills skills;
+  skill_watcher_actor watcher;
   request_router_actor router;
-  std::vector<skill_problem> refused_skills;
   std::string limits; ///< What holds instances to their limits, or why none.
   std::vector<caf::actor> children; ///< In the order of their start.
 };

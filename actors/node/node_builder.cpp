@@ -6,6 +6,7 @@
 #include "actors/instances/container_supervisor.hpp"
 #include "actors/instances/life/runtime_switch.hpp"
 #include "actors/instances/ros2/graph_watch.hpp"
+#include "actors/instances/skills/skill_watcher.hpp"
 #include "actors/membership/discovery.hpp"
 #include "actors/membership/join_diagnoser.hpp"
 #include "actors/membership/membership.hpp"
@@ -40,8 +41,9 @@ node_builder::node_builder(caf::actor_system& system, node_config config,
                            node_additions additions)
     : system_(system), data_(std::move(data)), history_(std::move(history)),
       bound_(std::move(bound)), runtime_(std::move(runtime)),
-      catalogue_(std::move(catalogue)), additions_(std::move(additions)) {
+      additions_(std::move(additions)) {
   parts_.config = std::move(config);
+  parts_.skills = std::make_shared<current_skills>(std::move(catalogue));
   parts_.context = std::move(context);
   parts_.edges = std::move(edges);
   parts_.lock = data_.lock;
@@ -59,23 +61,18 @@ node_builder::node_builder(caf::actor_system& system, node_config config,
 
 void node_builder::build(running_node& result) {
   add(parts_.context.events);
-  read_skills();
+  parts_.skills->get()->publish_problems(parts_.context, {});
   start_supervision();
   if (parts_.config.coordinator)
     start_coordination();
   else
     start_membership();
+  start_watching();
   start_measuring();
   start_prober();
   start_requests();
   result.actor = parts_.services->node;
   result.router = parts_.router;
-}
-
-void node_builder::read_skills() {
-  catalogue_->publish_problems(parts_.context);
-  parts_.skills = catalogue_->skills();
-  parts_.refused_skills = catalogue_->published_problems();
 }
 
 std::function<runtime_actor(container_listener_actor)>
@@ -99,7 +96,7 @@ void node_builder::start_supervision() {
   container_supervisor_config supervision;
   supervision.context = parts_.context;
   supervision.node = config.name;
-  supervision.skills = catalogue_;
+  supervision.skills = parts_.skills;
   supervision.make_runtime = make_runtime();
   supervision.builds_images = !runtime_.socket.empty();
   supervision.write_environment_update =
@@ -138,8 +135,9 @@ void node_builder::start_coordination() {
   setup.incarnation = data_.incarnation;
   setup.cell_uuid = data_.cell_uuid;
   setup.self = parts_.identity;
-  setup.skills = parts_.skills;
-  setup.refused_skills = parts_.refused_skills;
+  const auto skills = parts_.skills->get();
+  setup.skills = skills->skills();
+  setup.refused_skills = skills->published_problems();
   setup.agent = parts_.agent;
   setup.supervisor = parts_.services->supervisor;
   setup.store = store_;
@@ -199,8 +197,9 @@ membership_config node_builder::membership_setup() const {
   const auto& config = parts_.config;
   membership_config result;
   result.identity = parts_.identity;
-  result.skills = parts_.skills;
-  result.refused_skills = parts_.refused_skills;
+  const auto skills = parts_.skills->get();
+  result.skills = skills->skills();
+  result.refused_skills = skills->published_problems();
   result.restored = data_.membership;
   result.configured = config.wait ? "wait" : config.join;
   result.site = data_.site;
@@ -230,6 +229,21 @@ void node_builder::start_membership() {
     caf::anon_send(member, seek_cell{});
   else
     caf::anon_send(member, join_cell{config.join});
+}
+
+void node_builder::start_watching() {
+  const auto& services = *parts_.services;
+  skill_watcher_config with;
+  with.context = parts_.context;
+  with.node = parts_.config.name;
+  with.places = skill_places_of(parts_.config);
+  with.skills = parts_.skills;
+  if (services.coordinator)
+    with.listener = services.coordinator;
+  else
+    with.listener = services.membership;
+  with.io = parts_.edges->io->core();
+  parts_.watcher = start_blocking(skill_watcher, with);
 }
 
 void node_builder::start_measuring() {

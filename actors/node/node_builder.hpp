@@ -49,7 +49,6 @@ private:
                               std::forward<Args>(args)...));
   }
 
-  void read_skills();
   std::function<runtime_actor(container_listener_actor)> make_runtime();
   void start_supervision();
   void start_coordination();
@@ -58,6 +57,7 @@ private:
   session_connector_actor start_connector();
   membership_config membership_setup() const;
   void start_membership();
+  void start_watching();
   void start_measuring();
   void start_prober();
   void start_requests();
@@ -71,7 +71,6 @@ private:
   capacity_bound bound_;
   chosen_runtime runtime_;
   node_parts parts_;
-  shared_skill_catalogue catalogue_;
   node_additions additions_;
   state_store_actor store_;
 };

@@ -140,18 +140,21 @@ environment_writer make_environment_writer(const node_config& config,
   };
 }
 
+skill_places skill_places_of(const node_config& config) {
+  const auto own = config.data_dir / "skills";
+  // There from the first, so that what is put into it is seen. Where the disk
+  // takes nothing, nobody puts anything there.
+  std::error_code ignored;
+  fs::create_directory(own, ignored);
+  return {config.skill_dirs, {installed_skills(program_folder()), own}};
+}
+
 caf::expected<shared_skill_catalogue>
-offered_skills(const node_config& config, const chosen_runtime& runtime,
+offered_skills(const skill_places& places, const chosen_runtime& runtime,
                const std::vector<std::string>& actor_skills) {
-  auto dirs = config.skill_dirs;
-  // The usual places need not be there; those that were named must be.
-  for (auto& usual :
-       {installed_skills(program_folder()), config.data_dir / "skills"})
-    if (is_directory(usual) && !names_folder(dirs, usual))
-      dirs.push_back(usual);
   const skill_host host{own_architecture(), runtime.socket.empty()};
-  auto result =
-      std::make_shared<skill_catalogue>(skill_catalogue::scan(dirs, host));
+  auto result = std::make_shared<skill_catalogue>(
+      skill_catalogue::scan(places.present(), host));
   for (const auto& text : actor_skills)
     if (const auto errors = result->add_actor_skill(text); !errors.empty())
       return fail(error_code::schema_violation,

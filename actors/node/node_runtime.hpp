@@ -5,6 +5,7 @@
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/process/notify_socket.hpp"
 #include "actors/instances/skills/skill_catalogue.hpp"
+#include "actors/instances/skills/skill_places.hpp"
 #include "messages/messages.hpp"
 #include "roscell/node_config.hpp"
 
@@ -52,13 +53,17 @@ runtime_factory(caf::actor_system& system, const actor_context& context,
 environment_writer make_environment_writer(const node_config& config,
                                            const chosen_runtime& chosen);
 
-/// The skills in the folders of a node, and those whose instances are actors of
-/// this process, by their descriptors. Blocks on the disk. What is wrong in a
-/// folder is among the problems of the catalogue.
+/// Where a node looks for skills. Makes the folder for them in its data
+/// directory, which is there.
+skill_places skill_places_of(const node_config& config);
+
+/// The skills in these places, and those whose instances are actors of this
+/// process, by their descriptors. Blocks on the disk. What is wrong in a folder
+/// is among the problems of the catalogue.
 ///
 /// Errors: schema_violation (a descriptor in `actor_skills`).
 caf::expected<shared_skill_catalogue>
-offered_skills(const node_config& config, const chosen_runtime& runtime,
+offered_skills(const skill_places& places, const chosen_runtime& runtime,
                const std::vector<std::string>& actor_skills);
 
 } // namespace roscell

@@ -69,12 +69,13 @@ caf::expected<running_node> spawn_node(caf::actor_system& system,
   if (auto why = check_grants(config, *runtime))
     return why;
   config.runtime = runtime->name;
-  auto skills = offered_skills(config, *runtime, additions.actor_skills);
-  if (!skills)
-    return skills.error();
   auto data = open_node_data(config);
   if (!data)
     return data.error();
+  auto skills =
+      offered_skills(skill_places_of(config), *runtime, additions.actor_skills);
+  if (!skills)
+    return skills.error();
   actor_context context{std::make_shared<actor_directory>(), {}};
   context.metrics = std::make_shared<metric_table>();
   context.blocking = std::make_shared<blocking_threads>(system);

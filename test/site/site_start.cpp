@@ -65,7 +65,7 @@ void start_supervision(site& place, site_party& x) {
   container_supervisor_config config;
   config.context = x.context;
   config.node = x.name;
-  config.skills = site_skills();
+  config.skills = std::make_shared<current_skills>(site_skills());
   config.may_be_lost = !x.coordinates;
   config.make_runtime = [&x](const container_listener_actor& listener) {
     x.listener = listener;

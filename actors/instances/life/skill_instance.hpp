@@ -5,7 +5,7 @@
 #include "actors/edge/process/notify_socket.hpp"
 #include "actors/edge/process/skill_grants.hpp"
 #include "actors/instances/life/health_table.hpp"
-#include "actors/instances/skills/skill_catalogue.hpp"
+#include "actors/instances/skills/current_skills.hpp"
 #include "messages/messages.hpp"
 
 #include <chrono>
@@ -21,7 +21,9 @@ struct skill_instance_config {
   container_supervisor_actor supervisor; ///< Told of every change.
   runtime_actor runtime;
   state_store_actor store;
-  shared_skill_catalogue skills;
+  shared_skills skills;
+  /// Its skill as it was when the instance was deployed; null: not known.
+  shared_skill_folder skill;
   instance_row row;          ///< What is known of the instance.
   bool adopt = false;        ///< It may run already.
   bool builds_images = true; ///< The runtime needs an image of the skill.

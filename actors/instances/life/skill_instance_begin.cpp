@@ -22,8 +22,12 @@ const deployment_option* find_deployment(const skill_folder& folder,
   return nullptr;
 }
 
-const skill_folder* folder_of(const skill_instance_state& st) {
-  return st.config.skills->find(st.row.spec.skill);
+/// A folder of the same content may be elsewhere by now. One that was edited is
+/// another build, so this one is what it was: what runs of it needs no more,
+/// and a new start of it is refused by who looks into the folder.
+shared_skill_folder folder_of(const skill_instance_state& st) {
+  auto present = st.config.skills->get()->find(st.row.spec.skill);
+  return present ? present : st.config.skill;
 }
 
 /// What is run, and how.
@@ -122,7 +126,7 @@ void build(skill_instance_pointer self) {
     st.row.waits = "waits to hear where its cell is";
     return report(self);
   }
-  const auto* folder = folder_of(st);
+  const auto folder = folder_of(st);
   const auto* option =
       folder != nullptr ? find_deployment(*folder, st.row.spec) : nullptr;
   if (option == nullptr)
@@ -183,7 +187,7 @@ namespace {
 /// A node that has started again looks for the same endpoints as before.
 void recall_endpoints(skill_instance_pointer self) {
   auto& st = self->state;
-  const auto* folder = folder_of(st);
+  const auto folder = folder_of(st);
   if (folder == nullptr || folder->skill.descriptor.ros2.empty())
     return;
   auto start = ros2_start_of(folder->skill.descriptor, st.row.spec);

@@ -5,7 +5,6 @@
 #include "actors/edge/io/crypto.hpp"
 #include "actors/instances/limits.hpp"
 #include "actors/instances/skills/skill_descriptor_file.hpp"
-#include "messages/event_kinds.hpp"
 #include "schemas/utf8.hpp"
 
 #include <algorithm>
@@ -107,6 +106,8 @@ void skill_catalogue::add_folder(const fs::path& folder) {
     return blame(folder, "cannot be read: " + error.message());
   if (path.native().size() > limits::skill::path_bytes)
     return blame(path, "has too long a path");
+  if (leave_as_before(path))
+    return;
   const auto files = descriptor_files(path);
   if (files.size() > 1)
     return blame(path, several_files_text(files));
@@ -135,7 +136,7 @@ skill_catalogue::add_actor_skill(const std::string& text) {
     return {{"/engine", "expected \"actor\": it is registered with a factory "
                         "for actors"}};
   for (const auto& [hash, x] : skills_)
-    if (x.in_process && x.skill.descriptor.operation == descriptor.operation)
+    if (x->in_process && x->skill.descriptor.operation == descriptor.operation)
       return {{"/operation",
                "expected an operation that no other actor skill of "
                "this program has; one may have several models"}};
@@ -144,7 +145,8 @@ skill_catalogue::add_actor_skill(const std::string& text) {
   if (skill.version.empty())
     skill.version = skill.hash;
   skill.architectures = {host_.architecture};
-  skills_.emplace(skill.hash, skill_folder{{}, {}, skill, true});
+  skills_.emplace(skill.hash, std::make_shared<const skill_folder>(
+                                  skill_folder{{}, {}, skill, true}));
   return {};
 }
 
@@ -187,10 +189,14 @@ void skill_catalogue::add_content(const fs::path& path, installed_skill skill) {
   skill.hash = std::get<std::string>(hash);
   skill.version = version_of(path, skill);
   skill.added_unix_ms = std::get<folder_fingerprint>(look).changed_unix_ms;
+  keep(std::make_shared<const skill_folder>(skill_folder{
+      path, std::get<folder_fingerprint>(look).state, std::move(skill)}));
+}
+
+void skill_catalogue::keep(const shared_skill_folder& folder) {
+  folders_.emplace(folder->path, folder);
   // Of two equal folders the first is as good as the other.
-  skills_.emplace(
-      skill.hash,
-      skill_folder{path, std::get<folder_fingerprint>(look).state, skill});
+  skills_.emplace(folder->skill.hash, folder);
 }
 
 void skill_catalogue::blame(const fs::path& path, const std::string& message,
@@ -200,34 +206,16 @@ void skill_catalogue::blame(const fs::path& path, const std::string& message,
       {valid_utf8(path.string()), std::move(where), valid_utf8(message)});
 }
 
-const skill_folder* skill_catalogue::find(const std::string& hash) const {
+shared_skill_folder skill_catalogue::find(const std::string& hash) const {
   const auto i = skills_.find(hash);
-  return i == skills_.end() ? nullptr : &i->second;
+  return i == skills_.end() ? nullptr : i->second;
 }
 
 std::vector<installed_skill> skill_catalogue::skills() const {
   std::vector<installed_skill> result;
   for (const auto& [hash, x] : skills_)
-    result.push_back(x.skill);
+    result.push_back(x->skill);
   return result;
-}
-
-std::vector<skill_problem> skill_catalogue::published_problems() const {
-  std::vector<skill_problem> result;
-  for (size_t i = 0;
-       i < std::min(problems_.size(), limits::skill::published_problems); ++i) {
-    auto x = problems_[i];
-    for (auto* text : {&x.path, &x.where, &x.message})
-      *text = valid_utf8(text->substr(0, limits::skill::reported_text_bytes));
-    result.push_back(std::move(x));
-  }
-  return result;
-}
-
-void skill_catalogue::publish_problems(const actor_context& context) const {
-  for (const auto& x : problems_)
-    context.publish_event(events::skill_refused, x.path,
-                          {{"where", x.where}, {"message", x.message}});
 }
 
 } // namespace roscell

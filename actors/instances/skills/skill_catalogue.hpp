@@ -5,7 +5,9 @@
 #include "messages/skill.hpp"
 #include "schemas/validator.hpp"
 
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -22,6 +24,9 @@ struct skill_folder {
   bool in_process = false;
 };
 
+/// It stays as it is for whoever runs it, whatever becomes of its folder.
+using shared_skill_folder = std::shared_ptr<const skill_folder>;
+
 /// The skills of a node, by content hash. Filled once and then only read, so
 /// that actors can share it.
 class skill_catalogue {
@@ -31,6 +36,13 @@ public:
   /// disk: not for a scheduled actor.
   static skill_catalogue scan(const std::vector<std::filesystem::path>& dirs,
                               const skill_host& host = {own_architecture()});
+
+  /// What is in these directories by now, and the skills of this process. A
+  /// folder that looks as it did is not read again. Unless it is quiet, one
+  /// that was just written to stays what it was, and what is wrong since then
+  /// is not said yet: somebody may be copying it.
+  skill_catalogue scan_again(const std::vector<std::filesystem::path>& dirs,
+                             bool is_quiet) const;
 
   /// Adds a skill whose instances are actors of this process, by the text of
   /// its descriptor. What is wrong with it, or nothing.
@@ -42,7 +54,7 @@ public:
                                    const skill_host& host);
 
   /// Null if there is none with that hash.
-  const skill_folder* find(const std::string& hash) const;
+  shared_skill_folder find(const std::string& hash) const;
 
   /// In the order of their hashes.
   std::vector<installed_skill> skills() const;
@@ -54,8 +66,9 @@ public:
   /// The first of them, short enough for a message.
   std::vector<skill_problem> published_problems() const;
 
-  /// Records an event for every problem.
-  void publish_problems(const actor_context& context) const;
+  /// Records an event for every problem that `before` had not.
+  void publish_problems(const actor_context& context,
+                        const skill_catalogue& before) const;
 
 private:
   void scan_directory(const std::filesystem::path& directory);
@@ -65,11 +78,20 @@ private:
   void add_build(const std::filesystem::path& path,
                  skill_descriptor descriptor);
   void add_content(const std::filesystem::path& path, installed_skill skill);
+  bool leave_as_before(const std::filesystem::path& path);
+  void drop_new_problems();
+  void keep(const shared_skill_folder& folder);
   void blame(const std::filesystem::path& path, const std::string& message,
              std::string where = {});
 
   skill_host host_;
-  std::map<std::string, skill_folder> skills_;
+  /// While folders are scanned again: what was known of them, and from when on
+  /// a change is too new to be looked at.
+  const skill_catalogue* before_ = nullptr;
+  int64_t too_new_unix_ms_ = std::numeric_limits<int64_t>::max();
+  std::map<std::string, shared_skill_folder> skills_;
+  /// All that are skills, those of equal content too.
+  std::map<std::filesystem::path, shared_skill_folder> folders_;
   std::vector<skill_problem> problems_;
 };
 

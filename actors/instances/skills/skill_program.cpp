@@ -203,7 +203,8 @@ edge_result<bool> check_build(const prepare_image& request) {
                         + "' was edited after this node had read it: it is not "
                           "build "
                         + request.skill.substr(0, 12) + " any more",
-                    "restart the node, so that it offers what is there now"};
+                    "what is there now is a build of its own: run the task "
+                    "again, once `roscell skills` shows it"};
 }
 
 } // namespace roscell

@@ -15,7 +15,7 @@ struct instance_bench : virtual_time {
     config.supervisor = fake_supervisor(system, reported);
     config.runtime = fake_runtime(system, runtime);
     config.store = fake_store(system, store);
-    config.skills = catalogue.skills;
+    config.skills = std::make_shared<current_skills>(catalogue.skills);
     config.row.spec = echo_spec(catalogue.hash, "i");
     config.row.node = "n";
   }

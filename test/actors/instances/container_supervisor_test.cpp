@@ -6,6 +6,7 @@
 #include "test/actors/fakes/supervision_fakes.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 
 using namespace roscell;
@@ -21,7 +22,7 @@ struct supervisor_bench : virtual_time {
   supervisor_bench() {
     config.context = context;
     config.node = "n";
-    config.skills = catalogue.skills;
+    config.skills = std::make_shared<current_skills>(catalogue.skills);
     config.store = fake_store(system, store);
     config.make_runtime = [this](container_listener_actor) {
       runtimes.push_back(fake_runtime(system, runtime));
@@ -75,6 +76,14 @@ struct supervisor_bench : virtual_time {
   /// Deploys an instance, which says that it is ready.
   void run(const std::string& instance, const std::string& task = "t") {
     deploy(instance, task);
+    say(instance);
+  }
+
+  /// The same of one that is started again when it fails.
+  void run_again_and_again(const std::string& instance) {
+    auto spec = echo_spec(catalogue.hash, instance);
+    spec.life.restart.policy = restart_when::on_failure;
+    answer_to<instance_deployed>(instance_deployment{spec});
     say(instance);
   }
 
@@ -662,4 +671,39 @@ TEST_CASE("what an earlier run has left and no record knows is ended") {
   REQUIRE(b.runtime->removed.size() == 1);
   CHECK(b.runtime->removed[0].instance == "t-a-1");
   CHECK(b.runtime->removed[0].container.empty());
+}
+
+TEST_CASE_METHOD(started_bench, "what runs of an edited skill goes on as it "
+                                "was, and nothing new of it is deployed") {
+  run_again_and_again("i");
+  auto nothing = std::make_shared<const skill_catalogue>();
+  config.skills->set(nothing);
+  CHECK(row("i").state == instance_state::running);
+  SECTION("also under another actor") {
+    runtime->adoption = {true, "c1", -1};
+    kill_instance_actor();
+    CHECK(row("i").state == instance_state::running);
+  }
+  SECTION("and a new start of it asks for the build that it was") {
+    const auto look = runtime->prepared.at(0).look;
+    exit_of("i", "c1", 3);
+    advance(2s);
+    REQUIRE(runtime->prepared.size() == 2);
+    CHECK(runtime->prepared[1].skill == catalogue.hash);
+    CHECK(runtime->prepared[1].look == look);
+  }
+  CHECK(refusal(deploy("j")).code == error_code::unknown_operation);
+}
+
+TEST_CASE_METHOD(started_bench, "a skill whose folder has gone elsewhere is "
+                                "started again from there") {
+  run_again_and_again("i");
+  const auto moved = catalogue.folder.path() / "moved";
+  std::filesystem::rename(catalogue.folder.path() / "echo", moved);
+  config.skills->set(std::make_shared<const skill_catalogue>(
+      catalogue.skills->scan_again({catalogue.folder.path()}, true)));
+  exit_of("i", "c1", 3);
+  advance(2s);
+  REQUIRE(runtime->prepared.size() == 2);
+  CHECK(runtime->prepared[1].skill_dir == moved);
 }

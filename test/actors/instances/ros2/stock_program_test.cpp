@@ -27,9 +27,10 @@ constexpr const char* descriptor = R"({
 struct stock_bench : virtual_time {
   stock_bench() {
     folder.write("talk/skill.json", descriptor);
-    config.skills = std::make_shared<const skill_catalogue>(
+    const auto found = std::make_shared<const skill_catalogue>(
         skill_catalogue::scan({folder.path()}));
-    REQUIRE(config.skills->skills().size() == 1);
+    REQUIRE(found->skills().size() == 1);
+    config.skills = std::make_shared<current_skills>(found);
     graph->begin_service();
     watch = roscell::spawn(system, context, graph_watch, graph);
     config.context = context;
@@ -37,7 +38,7 @@ struct stock_bench : virtual_time {
     config.runtime = fake_runtime(system, runtime);
     config.store = fake_store(system, store);
     config.graph = watch;
-    config.row.spec = echo_spec(config.skills->skills()[0].hash, "i");
+    config.row.spec = echo_spec(found->skills()[0].hash, "i");
     config.row.spec.operation = "talk";
     config.row.spec.output = {{"ros2", "/t/words", "std_msgs/msg/String"}};
   }

@@ -34,7 +34,7 @@ skill_catalogue scan(const temp_folder& folder) {
 
 TEST_CASE("a folder with a valid descriptor is a skill, found by its hash") {
   const echo_catalogue echo;
-  const auto* found = echo.skills->find(echo.hash);
+  const auto found = echo.skills->find(echo.hash);
   REQUIRE(found != nullptr);
   CHECK(found->path == echo.folder.path() / "echo");
   CHECK(found->skill.descriptor.operation == "echo");
@@ -285,4 +285,72 @@ TEST_CASE("what is told of problems to others is bounded") {
   for (int i = 0; i < 40; ++i)
     folder.write("bad" + std::to_string(i) + "/skill.json", "{");
   CHECK(scan(folder).published_problems().size() == 32);
+}
+
+TEST_CASE("a folder that looks as it did is not read again") {
+  temp_folder folder;
+  write_echo(folder, "same");
+  folder.write("twin/skill.json", with("\"echo\"", "\"twin\""));
+  folder.write("twin/bin/echo", "#!/bin/sh\n", true);
+  const auto before = scan(folder);
+  REQUIRE(before.skills().size() == 2);
+  folder.write("twin/extra", "");
+  const auto now = before.scan_again({folder.path()}, true);
+  REQUIRE(now.skills().size() == 2);
+  size_t kept = 0;
+  for (const auto& x : now.skills())
+    if (before.find(x.hash)) {
+      ++kept;
+      CHECK(x.descriptor.operation == "echo");
+      // The same object: nothing was read but how the folder looks.
+      CHECK(now.find(x.hash) == before.find(x.hash));
+    }
+  CHECK(kept == 1);
+  CHECK(now.scan_again({folder.path()}, true).skills() == now.skills());
+}
+
+TEST_CASE("of two equal folders neither is read again, and either may go") {
+  temp_folder folder;
+  write_echo(folder, "a");
+  write_echo(folder, "b");
+  const auto before = scan(folder);
+  REQUIRE(before.skills().size() == 1);
+  const auto hash = before.skills()[0].hash;
+  fs::remove_all(folder.path() / "a");
+  const auto now = before.scan_again({folder.path()}, true);
+  REQUIRE(now.find(hash) != nullptr);
+  CHECK(now.find(hash)->path == folder.path() / "b");
+}
+
+TEST_CASE("what has gone is gone, and skills of this process stay") {
+  temp_folder folder;
+  write_echo(folder, "echo");
+  auto before = scan(folder);
+  REQUIRE(before
+              .add_actor_skill(with("\"primitive\", \"entry_point\": "
+                                    "[\"bin/echo\"]",
+                                    "\"actor\""))
+              .empty());
+  fs::remove_all(folder.path() / "echo");
+  const auto now = before.scan_again({folder.path()}, true);
+  REQUIRE(now.skills().size() == 1);
+  CHECK(now.skills()[0].descriptor.engine == "actor");
+}
+
+TEST_CASE("while somebody writes there a folder is neither read nor blamed") {
+  temp_folder folder;
+  write_echo(folder, "echo");
+  const auto before = scan(folder);
+  const auto hash = before.skills()[0].hash;
+  folder.write("echo/extra", "half");
+  folder.write("new/skill.json", echo_descriptor());
+  const auto busy = before.scan_again({folder.path()}, false);
+  CHECK(busy.find(hash) != nullptr);
+  CHECK(busy.skills().size() == 1);
+  CHECK(busy.problems().empty());
+  const auto quiet = busy.scan_again({folder.path()}, true);
+  CHECK(quiet.find(hash) == nullptr);
+  CHECK(quiet.skills().size() == 1);
+  REQUIRE(quiet.problems().size() == 1);
+  CHECK(quiet.problems()[0].path == folder.path() / "new/skill.json");
 }
