@@ -33,6 +33,8 @@ caf::error check_words(const std::string& option,
   return fail(error_code::schema_violation, option + ": " + errors[0].expected);
 }
 
+} // namespace
+
 caf::error check_words(const node_config& config) {
   node_resources plain;
   plain.architecture = "amd64";
@@ -48,8 +50,6 @@ caf::error check_words(const node_config& config) {
   plain.devices = config.devices;
   return check_words("--device", plain);
 }
-
-} // namespace
 
 caf::error complete_config(node_config& config) {
   auto chosen = resolve_interface(config.address);

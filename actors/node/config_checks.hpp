@@ -17,6 +17,10 @@ namespace roscell {
 /// of this host).
 caf::error complete_config(node_config& config);
 
+/// Checks that the name, the cell, the labels and the devices of a node can be
+/// said in messages. Errors: schema_violation (an option, named).
+caf::error check_words(const node_config& config);
+
 // What the configuration of a node grants to skills, against what the node
 // itself may.
 

@@ -20,7 +20,7 @@ namespace roscell {
 
 namespace {
 
-using node_agent_self = node_agent_actor::stateful_pointer<node_agent_state>;
+using node_agent_self = local_agent_actor::stateful_pointer<node_agent_state>;
 
 /// Hands a request on and its answer back.
 template <class Reply, class Message>
@@ -174,8 +174,8 @@ caf::result<instance_deployed> deploy(node_agent_self self,
 
 } // namespace
 
-node_agent_actor::behavior_type node_agent(node_agent_self self,
-                                           const node_agent_config& config) {
+local_agent_actor::behavior_type node_agent(node_agent_self self,
+                                            const node_agent_config& config) {
   self->state.config = config;
   return {
       [self](const state_query&) {
@@ -199,6 +199,12 @@ node_agent_actor::behavior_type node_agent(node_agent_self self,
       },
       [self](const kept_logs_query& x) {
         return forward<kept_logs>(self, limits::history::list, x);
+      },
+      [self](const use_settings& x) {
+        auto& config = self->state.config;
+        config.labels = x.labels;
+        config.devices = x.devices;
+        config.cpu_floor = x.cpu_floor;
       },
   };
 }

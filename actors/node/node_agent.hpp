@@ -33,13 +33,14 @@ struct node_agent_state {
 };
 
 /// The local NODE AGENT. Messages: messages/inside/agent.hpp.
-node_agent_actor::behavior_type
-node_agent(node_agent_actor::stateful_pointer<node_agent_state> self,
+local_agent_actor::behavior_type
+node_agent(local_agent_actor::stateful_pointer<node_agent_state> self,
            const node_agent_config& config);
 
 // INTERNAL to the node agent.
 
-using node_agent_pointer = node_agent_actor::stateful_pointer<node_agent_state>;
+using node_agent_pointer =
+    local_agent_actor::stateful_pointer<node_agent_state>;
 
 /// What skills say of themselves, and what the host says of them. Nothing is
 /// read unless somebody asks.

@@ -8,9 +8,12 @@
 #include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <thread>
+#include <vector>
 
 using namespace roscell::cli;
 
@@ -106,4 +109,27 @@ TEST_CASE("the reader of the ready descriptor gets a line and its end",
   CHECK(std::string{buffer.data()} == "READY=1\n");
   CHECK(read(ends[0], buffer.data(), buffer.size()) == 0);
   close(ends[0]);
+}
+
+TEST_CASE("SIGHUP wakes who hears it, once for several, and ends no wait",
+          "[tools]") {
+  using cause = stop_signals::cause;
+  std::vector<cause> woken;
+  // What it blocks is this thread's.
+  std::thread{[&] {
+    stop_signals signals{hangups::heard};
+    std::raise(SIGHUP);
+    std::raise(SIGHUP);
+    woken.push_back(signals.wait_for(std::chrono::milliseconds{1}));
+    const auto soon = [] {
+      return std::chrono::steady_clock::now() + std::chrono::milliseconds{1};
+    };
+    woken.push_back(signals.wait_with(-1, soon()));
+    woken.push_back(signals.wait_with(-1, soon()));
+    std::raise(SIGTERM);
+    woken.push_back(signals.wait_with(-1, std::nullopt));
+  }}.join();
+  CHECK(woken
+        == std::vector<cause>{cause::timeout, cause::hangup, cause::timeout,
+                              cause::signal});
 }

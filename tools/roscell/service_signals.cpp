@@ -15,64 +15,74 @@
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <initializer_list>
 #include <utility>
 
 namespace roscell::cli {
 
 namespace {
 
-sigset_t taken_signals() {
-  sigset_t result;
-  sigemptyset(&result);
-  sigaddset(&result, SIGINT);
-  sigaddset(&result, SIGTERM);
-  return result;
+/// A descriptor by which these signals are read, and nothing else takes them.
+int take_signals(std::initializer_list<int> numbers, int flags) {
+  sigset_t wanted;
+  sigemptyset(&wanted);
+  for (const auto number : numbers)
+    sigaddset(&wanted, number);
+  pthread_sigmask(SIG_BLOCK, &wanted, nullptr);
+  return signalfd(-1, &wanted, SFD_CLOEXEC | flags);
 }
 
 } // namespace
 
-stop_signals::stop_signals() {
-  // The end of a terminal, or of an ssh session, is none of the node.
-  std::signal(SIGHUP, SIG_IGN);
-  const auto wanted = taken_signals();
-  pthread_sigmask(SIG_BLOCK, &wanted, nullptr);
-  signal_fd_ = signalfd(-1, &wanted, SFD_CLOEXEC);
-  event_fd_ = eventfd(0, EFD_CLOEXEC);
-  if (signal_fd_ < 0 || event_fd_ < 0)
+stop_signals::stop_signals(hangups about)
+    : signal_fd_{take_signals({SIGINT, SIGTERM}, 0)}, event_fd_{eventfd(
+                                                          0, EFD_CLOEXEC)} {
+  if (about == hangups::heard)
+    hangup_fd_ = take_signals({SIGHUP}, SFD_NONBLOCK);
+  else
+    std::signal(SIGHUP, SIG_IGN);
+  if (signal_fd_ < 0 || event_fd_ < 0
+      || (about == hangups::heard && hangup_fd_ < 0))
     throw command_error{exit_refused, "too many open files"};
 }
 
 stop_signals::~stop_signals() {
   close(signal_fd_);
   close(event_fd_);
+  if (hangup_fd_ >= 0)
+    close(hangup_fd_);
 }
 
 stop_signals::cause stop_signals::wait() {
-  return poll_once(-1, -1);
+  return poll_once(-1, -1, -1);
 }
 
 stop_signals::cause stop_signals::wait_for(std::chrono::milliseconds limit) {
-  return poll_once(-1, static_cast<int>(limit.count()));
+  return poll_once(-1, -1, static_cast<int>(limit.count()));
 }
 
 stop_signals::cause stop_signals::wait_with(int fd,
                                             std::optional<time_point> until) {
   using namespace std::chrono;
   if (!until)
-    return poll_once(fd, -1);
+    return poll_once(fd, hangup_fd_, -1);
   // Rounded up: what is due then is to be due afterwards.
   const auto left = ceil<milliseconds>(*until - steady_clock::now());
-  return poll_once(fd, static_cast<int>(std::max(left, 0ms).count()));
+  return poll_once(fd, hangup_fd_,
+                   static_cast<int>(std::max(left, 0ms).count()));
 }
 
 void stop_signals::end() {
   eventfd_write(event_fd_, 1);
 }
 
-stop_signals::cause stop_signals::poll_once(int fd, int timeout_ms) {
+stop_signals::cause stop_signals::poll_once(int fd, int hangup_fd,
+                                            int timeout_ms) {
   // A negative descriptor is passed over.
-  std::array<pollfd, 3> fds{
-      {{event_fd_, POLLIN, 0}, {signal_fd_, POLLIN, 0}, {fd, POLLIN, 0}}};
+  std::array<pollfd, 4> fds{{{event_fd_, POLLIN, 0},
+                             {signal_fd_, POLLIN, 0},
+                             {hangup_fd, POLLIN, 0},
+                             {fd, POLLIN, 0}}};
   if (poll(fds.data(), fds.size(), timeout_ms) <= 0)
     return cause::timeout;
   if (fds[0].revents != 0) {
@@ -80,11 +90,15 @@ stop_signals::cause stop_signals::poll_once(int fd, int timeout_ms) {
     eventfd_read(event_fd_, &ends);
     return cause::ended;
   }
-  if (fds[1].revents == 0)
-    return cause::news;
   signalfd_siginfo taken{};
-  const auto n = read(signal_fd_, &taken, sizeof taken);
-  return n > 0 ? cause::signal : cause::timeout;
+  if (fds[1].revents != 0)
+    return read(signal_fd_, &taken, sizeof taken) > 0 ? cause::signal
+                                                      : cause::timeout;
+  if (fds[2].revents == 0)
+    return cause::news;
+  while (read(hangup_fd, &taken, sizeof taken) > 0) {
+  }
+  return cause::hangup;
 }
 
 readiness::readiness(int fd) : fd_{fd} {

@@ -6,16 +6,20 @@
 
 namespace roscell::cli {
 
+/// Whether SIGHUP, which a terminal sends too when it is closed, says anything
+/// to a process. It ends none that waits for `stop_signals`.
+enum class hangups { ignored, heard };
+
 /// Waits for SIGINT and SIGTERM, or for `end`, without a signal handler.
-/// Blocks both signals for the calling thread and those it makes later. SIGHUP
-/// is ignored by the process from then on.
+/// Blocks both signals for the calling thread and those it makes later, and
+/// SIGHUP where that is heard.
 class stop_signals {
 public:
   using time_point = std::chrono::steady_clock::time_point;
 
-  enum class cause { signal, ended, news, timeout };
+  enum class cause { signal, ended, news, timeout, hangup };
 
-  stop_signals();
+  explicit stop_signals(hangups about = hangups::ignored);
   ~stop_signals();
 
   stop_signals(const stop_signals&) = delete;
@@ -24,16 +28,18 @@ public:
   cause wait();
   cause wait_for(std::chrono::milliseconds limit);
 
-  /// The same until `until`, or without end; `news` where `fd` can be read.
+  /// The same until `until`, or without end; `news` where `fd` can be read, and
+  /// `hangup` for all SIGHUPs since the last one: nothing else waits for them.
   cause wait_with(int fd, std::optional<time_point> until);
 
   /// What is waited for has ended by itself; from any thread. Ends one wait.
   void end();
 
 private:
-  cause poll_once(int fd, int timeout_ms);
+  cause poll_once(int fd, int hangup_fd, int timeout_ms);
 
   int signal_fd_;
+  int hangup_fd_ = -1; ///< Negative: SIGHUP is ignored.
   int event_fd_;
 };
 

@@ -24,7 +24,7 @@ struct agent_fixture {
   std::vector<caf::response_promise> unanswered;
   caf::actor supervisor;
   caf::actor probe;
-  node_agent_actor agent;
+  local_agent_actor agent;
 
   agent_fixture() {
     host.name = "whatever the probe says";

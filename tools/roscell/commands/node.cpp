@@ -1,7 +1,7 @@
 #include "actors/node/config_checks.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/config/config_file.hpp"
-#include "tools/roscell/config/node_options.hpp"
+#include "tools/roscell/config/node_source.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -249,11 +249,10 @@ void add_node_command(CLI::App& app, action& chosen) {
                    "comes first. `roscell new config` prints one to begin with")
       ->option_text("FILE");
   command->callback([&chosen, command, options, file] {
-    chosen = [command, options, file] {
-      if (!file->empty())
-        take_config(*command, *file);
+    chosen = [command, file] {
+      const node_source source{*command, *file};
       forget_commands(*command->get_parent());
-      return run_node(*options);
+      return run_node(source);
     };
   });
 }

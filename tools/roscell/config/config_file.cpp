@@ -19,7 +19,6 @@ namespace roscell::cli {
 
 namespace {
 
-constexpr size_t max_config_bytes = 64UL * 1024;
 constexpr auto blanks = " \t\r";
 
 std::string_view trimmed(std::string_view text) {
@@ -139,7 +138,8 @@ constexpr size_t widest_line = 78;
 constexpr auto heading =
     R"(# What this node is started with. A line is `OPTION = VALUE`, with the long name
 # of an option of `roscell node` (`man roscell-node`); # begins a comment. Paths
-# begin in the folder of this file. After a change: systemctl restart roscell
+# begin in the folder of this file. After a change: systemctl reload roscell,
+# which says what needs a restart
 )";
 
 /// `text` as comments, in lines that a terminal shows whole.

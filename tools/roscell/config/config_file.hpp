@@ -13,6 +13,9 @@ class Option;
 /// A file that says what the command line of a node may say, too.
 namespace roscell::cli {
 
+/// The largest file that is read.
+constexpr size_t max_config_bytes = 64UL * 1024;
+
 /// "key = value" in a line of its own.
 struct config_line {
   size_t number; ///< Counted from 1.

@@ -33,7 +33,4 @@ void add_node_options(CLI::App& command, node_options& options);
 /// the address. Throws command_error for a value that cannot be meant.
 node_config to_config(const node_options& options);
 
-/// Runs a node until SIGINT or SIGTERM. Returns the exit code.
-int run_node(const node_options& options);
-
 } // namespace roscell::cli

@@ -112,11 +112,11 @@ void print_address_change(const running_node& node, const interface_address& at,
 
 } // namespace
 
-node_process::node_process(const node_options& options, node_config config,
+node_process::node_process(const node_source& source, node_reading started,
                            std::string interface)
-    : options_(options), config_(std::move(config)),
-      interface_(std::move(interface)), fixed_(is_ipv4_address(interface_)),
-      starter_(options.ready_fd) {}
+    : settings_{source, std::move(started)}, interface_(std::move(interface)),
+      fixed_(is_ipv4_address(interface_)),
+      starter_(settings_.options().ready_fd), signals_{hangups::heard} {}
 
 exit_code node_process::run() {
   node_system_config system_config;
@@ -130,7 +130,7 @@ exit_code node_process::run() {
     const auto node = start(system, *at);
     if (!node)
       continue;
-    introduce(*node, config_);
+    introduce(*node, settings_.config());
     start_journal(system, node->events);
     print_address_change(*node, *at, former);
     // The start needed memory that running does not.
@@ -148,8 +148,8 @@ exit_code node_process::run() {
 /// coordinator is nothing without its own. A member looks after its instances
 /// meanwhile, and is made anew when the carrier comes.
 std::variant<interface_address, std::string> node_process::look() const {
-  return find_interface(interface_, config_.coordinator, list_interfaces(),
-                        list_links());
+  return find_interface(interface_, settings_.config().coordinator,
+                        list_interfaces(), list_links());
 }
 
 /// Where the node can be made; none where it is to end before. What it lacks
@@ -162,7 +162,7 @@ std::optional<interface_address> node_process::await_address() {
     if (const auto* at = std::get_if<interface_address>(&found))
       return *at;
     if (!answers)
-      answers.emplace(config_);
+      answers.emplace(settings_.config());
     const auto& missing = std::get<std::string>(found);
     const auto text = missing + "; this host has: "
                       + describe_links(list_interfaces(), list_links());
@@ -171,27 +171,26 @@ std::optional<interface_address> node_process::await_address() {
       spdlog::warn("the node waits for its interface: {}", printable(text));
       starter_.waiting("waits for its interface: " + text);
     }
-    if (signals_.wait_with(watch_.fd(), std::nullopt)
-        != stop_signals::cause::news)
+    const auto cause = signals_.wait_with(watch_.fd(), std::nullopt);
+    hung_up_ = hung_up_ || cause == stop_signals::cause::hangup;
+    if (cause == stop_signals::cause::news)
+      watch_.clear();
+    else if (cause != stop_signals::cause::hangup)
       return std::nullopt;
-    watch_.clear();
   }
 }
 
 /// None where the address has gone meanwhile.
 std::optional<running_node> node_process::start(caf::actor_system& system,
                                                 const interface_address& at) {
-  auto config = config_;
+  auto config = settings_.config();
   config.address = at.address;
   node_additions additions;
   additions.check_host = [config] { return check_own_host(config); };
   config.pages = dashboard_pages();
   auto node = spawn_node(system, config, additions);
   if (node) {
-    // The next one is the same node: what was put aside once is not put aside
-    // again, and its name does not follow the MAC of another interface.
-    config_.new_identity = false;
-    config_.name = node->name;
+    settings_.keep_identity(node->name);
     node->actor->attach_functor([this] { signals_.end(); });
     return std::move(*node);
   }
@@ -209,6 +208,8 @@ node_process::node_end node_process::serve(const running_node& node,
   using clock = std::chrono::steady_clock;
   address_tracker tracker{at, fixed_};
   tracker.observe(list_interfaces(), clock::now());
+  if (std::exchange(hung_up_, false))
+    settings_.read_again(node);
   for (;;) {
     switch (signals_.wait_with(watch_.fd(), tracker.due())) {
     case stop_signals::cause::signal:
@@ -218,6 +219,9 @@ node_process::node_end node_process::serve(const running_node& node,
     case stop_signals::cause::news:
       watch_.clear();
       tracker.observe(list_interfaces(), clock::now());
+      break;
+    case stop_signals::cause::hangup:
+      settings_.read_again(node);
       break;
     case stop_signals::cause::timeout:
       break;
@@ -247,8 +251,8 @@ exit_code node_process::finish(caf::actor_system& system,
     halt(system, node, signals_, exit_unreachable);
     return exit_unreachable;
   }
-  if (options_.drain_timeout != "0")
-    empty_node(system, node, signals_, parse_duration(options_.drain_timeout));
+  if (const auto& limit = settings_.options().drain_timeout; limit != "0")
+    empty_node(system, node, signals_, parse_duration(limit));
   stop_in_order(system, node, signals_);
   return exit_done;
 }
@@ -262,6 +266,24 @@ std::string quoted(const std::string& name) {
 std::string hint_of(const event& e) {
   const auto hint = event_text(e, "hint");
   return hint.empty() ? hint : " (" + hint + ")";
+}
+
+std::string list_in(const event& e, const char* key) {
+  std::string result;
+  const auto data = json::parse(e.data, nullptr, false);
+  if (data.is_object() && data.contains(key) && data[key].is_array())
+    for (const auto& x : data[key])
+      if (x.is_string())
+        result += (result.empty() ? "" : ", ") + x.get<std::string>();
+  return result;
+}
+
+std::string reading_line(const event& e) {
+  const auto changed = list_in(e, "changed");
+  const auto restart = list_in(e, "needs_restart");
+  return "read its configuration and its skills anew; "
+         + (changed.empty() ? "no option has changed" : "changed: " + changed)
+         + (restart.empty() ? "" : "; needs a restart: " + restart);
 }
 
 void print(const event& e) {
@@ -307,6 +329,8 @@ std::string journal_line(const event& e) {
                 ? "in no cell yet: "
                 : "not joined yet at " + text("discovery_server") + ": ")
            + text("reason") + hint_of(e);
+  else if (e.what == events::configuration_read)
+    line = reading_line(e);
   else
     line = e.what + " " + quoted(e.subject) + " " + event_particulars(e);
   line = printable(line);

@@ -3,8 +3,9 @@
 #include "actors/edge/host/interfaces.hpp"
 #include "actors/node/spawn_node.hpp"
 #include "messages/inside/introspection.hpp"
-#include "tools/roscell/config/node_options.hpp"
+#include "tools/roscell/config/node_source.hpp"
 #include "tools/roscell/daemon/node_address.hpp"
+#include "tools/roscell/daemon/node_settings.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/service_signals.hpp"
 
@@ -23,10 +24,11 @@ namespace roscell::cli {
 class node_process {
 public:
   /// `interface` is a name or an address.
-  node_process(const node_options& options, node_config config,
+  node_process(const node_source& source, node_reading started,
                std::string interface);
 
-  /// Until SIGINT or SIGTERM. Throws command_error when no node can be made.
+  /// Until SIGINT or SIGTERM; SIGHUP has its options read again. Throws
+  /// command_error when no node can be made.
   exit_code run();
 
 private:
@@ -41,13 +43,13 @@ private:
   exit_code finish(caf::actor_system& system, const running_node& node,
                    node_end end);
 
-  const node_options& options_;
-  node_config config_;
+  node_settings settings_;
   std::string interface_;
   bool fixed_; ///< It is an address.
   readiness starter_;
   stop_signals signals_;
   address_watch watch_;
+  bool hung_up_ = false; ///< While no node could be told.
 };
 
 /// Writes the events of a node to the log of this process, for people who read

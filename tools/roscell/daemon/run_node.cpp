@@ -1,6 +1,6 @@
 #include "actors/edge/dds/discovery_setup.hpp"
 #include "actors/edge/host/own_process.hpp"
-#include "tools/roscell/config/node_options.hpp"
+#include "tools/roscell/config/node_source.hpp"
 #include "tools/roscell/daemon/node_address.hpp"
 #include "tools/roscell/daemon/node_process.hpp"
 
@@ -32,14 +32,15 @@ void set_up_log(const node_options& options) {
 
 } // namespace
 
-int run_node(const node_options& options) {
+int run_node(const node_source& source) {
   prepare_dds_environment();
   save_memory();
   raise_descriptor_limit();
   std::signal(SIGPIPE, SIG_IGN);
   // Threads inherit the signals that it blocks, so it comes before all of them.
-  node_process process{options, to_config(options),
-                       choose_interface(options.interface)};
+  const auto started = source.read();
+  const auto& options = started.options;
+  node_process process{source, started, choose_interface(options.interface)};
   set_up_log(options);
   return process.run();
 }
