@@ -215,6 +215,8 @@ const stale_list& stale_answers() {
       {"switch_*", {"cell"}},
       {"peer_*", {"cells"}},
       {"skill_refused", {"skills"}},
+      {"skill_added", {"skills"}},
+      {"skill_removed", {"skills"}},
       // Steps that begin, end or go elsewhere.
       {"task_*", {"task"}},
       {"step_*", {"task"}},

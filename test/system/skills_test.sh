@@ -48,15 +48,150 @@ test_a_skill_without_its_program_is_refused_and_shown_with_the_reason() {
     no_feasible_allocation
 }
 
-test_an_edited_skill_folder_does_not_run_under_its_old_hash() {
+# lines_pass TASK WORD [PREFIX]: some lines that are given to its step come out,
+# each once, with what this build puts before them.
+lines_pass() {
+  local n
+  for n in 1 2 3 4 5; do
+    echo "$2 $n" >> "$scratch/data/$1.in"
+  done
+  for n in 1 2 3 4 5; do
+    timeout "$deadline_s" grep -m 1 -x "${3:-}$2 $n" > "$scratch/matches" \
+      < <(exec tail --pid=$$ -n +1 -F "$scratch/data/$1.out" 2> /dev/null) \
+      || fail "no '${3:-}$2 $n': $(tail -n 3 "$scratch/data/$1.out")"
+  done
+}
+
+# edit_echo FOLDER PREFIX: its program is another one, which puts PREFIX before
+# each line.
+edit_echo() {
+  mv -n "$1/bin/echo" "$1/bin/plain"
+  printf '#!/bin/sh\nROSCELL_PARAMETERS='\''{"prefix": "%s"}'\'' exec "${0%%/*}/plain"\n' \
+    "$2" > "$scratch/program"
+  chmod +x "$scratch/program"
+  mv "$scratch/program" "$1/bin/echo"
+}
+
+# builds_on NODE: the hashes of the builds that its coordinator knows there.
+builds_on() {
+  get head /v1/skills \
+    | jq -r --arg node "$1" '.skills[] | select(.nodes | index($node)) | .skill.hash'
+}
+
+# instance_at NODE FIELD: of the one instance in its cell.
+instance_at() {
+  get "$1" /v1/instances | jq -r ".instances[0].$2"
+}
+
+test_an_edited_skill_is_a_new_build_at_once_and_what_runs_of_it_runs_on() {
+  local before shim prefix
   own_skills head
   skills=$scratch/head.skills start_node head --coordinator --interface lo
-  touch "$scratch/head.skills/echo/extra"
   echo_task hello > "$scratch/task.json"
+  to head request "$scratch/task.json" > "$scratch/reply.json" \
+    || fail "refused: $(cat "$scratch/reply.json")"
+  lines_pass hello before
+  for prefix in first second; do
+    before=$(builds_on head)
+    shim=$(instance_at head container)
+    edit_echo "$scratch/head.skills/echo" "$prefix "
+    await head ".event == \"skill_removed\" and .data.hash == \"$before\"" \
+      > /dev/null
+    [[ $(builds_on head) =~ ^[0-9a-f]{64}$ && $(builds_on head) != "$before" ]] \
+      || fail "builds: $(builds_on head)"
+    expect "what runs" "$(instance_at head 'spec.skill')" "$before"
+    lines_pass hello "meanwhile of $prefix" \
+      "$([[ $prefix == first ]] || echo "first ")"
+    expect "its program" "$(instance_at head container)" "$shim"
+    to head restart hello > "$scratch/restarted" 2>&1 \
+      || fail "no restart: $(cat "$scratch/restarted")"
+    expect "what is restarted" "$(instance_at head 'spec.skill')" \
+      "$(builds_on head)"
+    lines_pass hello "after $prefix" "$prefix "
+  done
+}
+
+test_what_crashes_after_its_folder_was_edited_runs_no_other_build() {
+  own_skills head
+  skills=$scratch/head.skills start_node head --coordinator --interface lo
+  echo_task hello | jq '.pipeline[0].restart = {delay_s: 0.1}' > "$scratch/task.json"
+  to head request "$scratch/task.json" > "$scratch/reply.json" \
+    || fail "refused: $(cat "$scratch/reply.json")"
+  lines_pass hello before
+  edit_echo "$scratch/head.skills/echo" "edited "
+  await head '.event == "skill_added"' > /dev/null
+  pkill -KILL -P "$(readlink "$scratch/head/instances/$(instance_at head spec.instance)/pid" \
+    | cut -d' ' -f1)" || fail "it does not run"
+  await head '.event == "instance_changed"
+              and (.data.reason | contains("is not build"))' > /dev/null
+  to head restart hello > "$scratch/restarted" 2>&1 \
+    || fail "no restart: $(cat "$scratch/restarted")"
+  lines_pass hello after "edited "
+}
+
+test_a_skill_that_is_copied_onto_a_member_is_placed_there_at_once() {
+  own_skills head
+  mkdir "$scratch/arm.skills"
+  start_two
+  echo_task there arm > "$scratch/task.json"
   to head request "$scratch/task.json" > "$scratch/reply.json"
-  expect "code" "$(jq -r .error.code "$scratch/reply.json")" engine_failed
-  jq -r .error.message "$scratch/reply.json" | has_line "was edited" \
-    || fail "$(cat "$scratch/reply.json")"
+  expect "code" "$(jq -r .error.code "$scratch/reply.json")" \
+    no_feasible_allocation
+  # In the node's own folder for skills, which it makes at its start.
+  cp -r "$scratch/skills/echo" "$scratch/arm/skills/"
+  await head '.event == "skill_added" and .data.node == "arm"' > /dev/null
+  to head request "$scratch/task.json" > "$scratch/reply.json" \
+    || fail "refused: $(cat "$scratch/reply.json")"
+  expect "the node" "$(jq -r '.instances[0].node' "$scratch/reply.json")" arm
+  lines_pass there placed
+  rm -r "$scratch/arm/skills/echo"
+  await head '.event == "skill_removed" and .data.node == "arm"' > /dev/null
+  expect "who has it" "$(builds_on arm)" ""
+  lines_pass there "still there"
+}
+
+# send_hangup NAME: the node reads its file again, and says in $scratch/said what
+# came of it.
+send_hangup() {
+  local since=0
+  [[ ! -e $scratch/said ]] || since=$(jq .sequence "$scratch/said")
+  kill -HUP "${pid[$1]}"
+  await "$1" '.event | startswith("configuration_re")' "$since" > "$scratch/answer"
+  mv "$scratch/answer" "$scratch/said"
+}
+
+test_sighup_reads_the_file_and_skills_and_a_broken_file_changes_nothing() {
+  local conf=$scratch/node.conf
+  own_skills head
+  mkdir "$scratch/more"
+  printf 'label = place=here\n' > "$conf"
+  skills=$scratch/head.skills start_node head --coordinator --interface lo \
+    --config "$conf"
+  echo_task hello here > "$scratch/task.json"
+  to head request "$scratch/task.json" > "$scratch/reply.json" \
+    || fail "refused: $(cat "$scratch/reply.json")"
+  lines_pass hello before
+  printf 'label = place=there\nlog-bytes = 2MiB\n' > "$conf"
+  send_hangup head
+  expect "what has changed" "$(jq -c .data "$scratch/said")" \
+    '{"changed":["label","log-bytes"],"needs_restart":["log-bytes"]}'
+  has_line "needs a restart: log-bytes" "$scratch/head.log" \
+    || fail "$(tail -n 3 "$scratch/head.log")"
+  echo_task again there > "$scratch/task.json"
+  to head request "$scratch/task.json" > "$scratch/reply.json" \
+    || fail "refused: $(cat "$scratch/reply.json")"
+  printf 'label = place=nowhere\nlabel = nothing\n' > "$conf"
+  send_hangup head
+  expect "what is refused" "$(jq -r .event "$scratch/said")" configuration_refused
+  jq -r .data.reason "$scratch/said" | has_line -F "$conf:2: --label: 'nothing'" \
+    || fail "$(cat "$scratch/said")"
+  printf 'labels = place=nowhere\n' > "$conf"
+  send_hangup head
+  jq -r .data.reason "$scratch/said" | has_line -F "$conf:1: there is no option" \
+    || fail "$(cat "$scratch/said")"
+  expect "its label" "$(get head /v1/node | jq -r .resources.labels.place)" there
+  lines_pass hello after
+  lines_pass again after
 }
 
 # keep_cores_busy: every core is taken until the test is over.
