@@ -79,10 +79,10 @@ void read_folders(watcher_pointer self, bool is_quiet) {
   auto word = word_of(now);
   st.config.skills->set(
       std::make_shared<const skill_catalogue>(std::move(now)));
-  if (word == st.told)
+  if (word == st.reported)
     return;
-  st.told = std::move(word);
-  self->send(st.config.listener, st.told);
+  st.reported = std::move(word);
+  self->send(st.config.listener, st.reported);
 }
 
 void set_timer(watcher_pointer self) {
@@ -118,7 +118,7 @@ skill_watcher_actor::behavior_type
 skill_watcher(watcher_pointer self, const skill_watcher_config& config) {
   auto& st = self->state;
   st.config = config;
-  st.told = word_of(*config.skills->get());
+  st.reported = word_of(*config.skills->get());
   if (config.io)
     st.watch.emplace(config.io, [me = skill_watcher_actor{self}] {
       caf::anon_send(me, skill_folders_touched{});
@@ -128,8 +128,8 @@ skill_watcher(watcher_pointer self, const skill_watcher_config& config) {
   return {
       [self](const state_query&) {
         const auto& state = self->state;
-        return state_of({{"skills", state.told.skills.size()},
-                         {"refused", state.told.refused_skills.size()},
+        return state_of({{"skills", state.reported.skills.size()},
+                         {"refused", state.reported.refused_skills.size()},
                          {"readings", state.readings},
                          {"unwatched", state.unwatched}});
       },

@@ -31,7 +31,7 @@ struct skill_watcher_state {
   std::optional<folder_watch> watch;
   std::string unwatched; ///< Why not all folders are watched; empty: all are.
   folder_unrest unrest;
-  skills_changed told; ///< What the listener knows.
+  skills_changed reported; ///< What the listener knows.
   uint64_t readings = 0;
   alarm timer;
 };

@@ -15,7 +15,7 @@ installed_skill edited_echo() {
 struct skilled_cell : paper_cell {
   fake_agent& arm = add("arm");
 
-  void tell(fake_agent& x, std::vector<installed_skill> skills) {
+  void report(fake_agent& x, std::vector<installed_skill> skills) {
     x.skills = std::move(skills);
     caf::anon_send(coordinator, member_skills_changed{
                                     x.identity.uuid, x.member, {x.skills, {}}});
@@ -33,7 +33,7 @@ TEST_CASE_METHOD(skilled_cell,
                  "A build that a member has got is placed at once",
                  "[cell_skills]") {
   base.has.cpu.used = 4;
-  tell(arm, {edited_echo()});
+  report(arm, {edited_echo()});
   CHECK(skills().at("skills").size() == 2);
   REQUIRE(count("skill_removed") == 1);
   REQUIRE(count("skill_added") == 1);
@@ -53,7 +53,7 @@ TEST_CASE_METHOD(skilled_cell, "What runs of a build that has gone runs on",
                  "[cell_skills]") {
   request(echo_task("t", {echo_step("s0", 1, "arm")}));
   REQUIRE(arm.running.size() == 1);
-  tell(arm, {edited_echo()});
+  report(arm, {edited_echo()});
   time.advance(10s);
   CHECK(arm.running.size() == 1);
   CHECK(arm.removals.empty());
@@ -62,9 +62,9 @@ TEST_CASE_METHOD(skilled_cell, "What runs of a build that has gone runs on",
 
 TEST_CASE_METHOD(skilled_cell, "The same skills again are no event",
                  "[cell_skills]") {
-  tell(arm, {edited_echo()});
+  report(arm, {edited_echo()});
   const auto before = events.size();
-  tell(arm, {edited_echo()});
+  report(arm, {edited_echo()});
   CHECK(events.size() == before);
 }
 
@@ -75,10 +75,10 @@ TEST_CASE_METHOD(skilled_cell,
   auto& again = make_agent("arm");
   again.identity.epoch = 2;
   REQUIRE(enter(again));
-  tell(arm, {edited_echo()});
+  report(arm, {edited_echo()});
   CHECK(skills().at("skills").size() == 1);
   CHECK(count("skill_added") == 0);
-  tell(again, {edited_echo()});
+  report(again, {edited_echo()});
   CHECK(count("skill_added") == 1);
 }
 
@@ -90,7 +90,7 @@ TEST_CASE_METHOD(skilled_cell, "A problem that is fixed is gone from the list",
                                                     {arm.skills, {half}}});
   time.settle();
   CHECK(skills().at("refused").at(0).at("node") == "arm");
-  tell(arm, arm.skills);
+  report(arm, arm.skills);
   CHECK_FALSE(skills().contains("refused"));
 }
 
@@ -117,14 +117,14 @@ TEST_CASE_METHOD(skilled_cell,
   REQUIRE(request(echo_task("t", {step})).at("type") == "task_accepted");
   REQUIRE(left.running.size() == 1);
   arm.has.cpu.used = 0;
-  tell(arm, {});
+  report(arm, {});
   caf::anon_send(coordinator, skills_changed{});
   lose(left);
   // By then the pauses between attempts are long.
   time.advance(5min);
   CHECK(arm.running.empty());
   REQUIRE(count("step_stranded") == 1);
-  tell(arm, {edited_echo()});
+  report(arm, {edited_echo()});
   time.advance(100ms);
   REQUIRE(arm.running.size() == 1);
   CHECK(arm.running.begin()->second.spec.skill == edited_echo().hash);

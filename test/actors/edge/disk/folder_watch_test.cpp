@@ -18,7 +18,7 @@ namespace {
 class heard_watch {
 public:
   explicit heard_watch(size_t most = limits::folder::watched)
-      : watch_{io_.core(), [this] { told_.put(true); }, most} {}
+      : watch_{io_.core(), [this] { calls_.put(true); }, most} {}
 
   std::string follow(const std::vector<watched_folder>& folders) {
     return watch_.follow(folders);
@@ -26,18 +26,18 @@ public:
 
   /// Waits until something is told.
   bool heard() {
-    return told_.take();
+    return calls_.take();
   }
 
   /// By now: the loop has looked at its descriptors in between.
-  size_t told() {
+  size_t calls() {
     wire::settle(io_);
     wire::settle(io_);
-    return told_.size();
+    return calls_.size();
   }
 
 private:
-  wire::inbox<bool> told_;
+  wire::inbox<bool> calls_;
   io_thread io_;
   folder_watch watch_; // Ends before what it calls.
 };
@@ -91,7 +91,7 @@ TEST_CASE("reading tells nothing, nor what is not watched any more") {
     folder.append("echo/bin/echo", "b");
     fs::remove_all(folder.path() / "echo");
   }
-  CHECK(watch.told() == 0);
+  CHECK(watch.calls() == 0);
 }
 
 TEST_CASE("what is below a new folder is told once that is followed") {

@@ -20,7 +20,7 @@ struct watcher_bench : virtual_time {
     });
     context.events = caf::actor_cast<event_log_actor>(log);
     listener = system.spawn([this]() -> skill_listener_actor::behavior_type {
-      return {[this](const skills_changed& x) { told.push_back(x); }};
+      return {[this](const skills_changed& x) { reported.push_back(x); }};
     });
     config.context = context;
     config.node = "arm";
@@ -64,7 +64,7 @@ struct watcher_bench : virtual_time {
   }
 
   temp_folder folder;
-  std::vector<skills_changed> told;
+  std::vector<skills_changed> reported;
   std::vector<record_event> events;
   caf::actor log;
   skill_listener_actor listener;
@@ -81,13 +81,13 @@ TEST_CASE_METHOD(watcher_bench, "an edited folder is another build once it is "
   folder.write("echo/extra", "");
   touch();
   advance(250ms);
-  CHECK(told.empty());
+  CHECK(reported.empty());
   touch(); // It goes on.
   advance(250ms);
-  CHECK(told.empty());
+  CHECK(reported.empty());
   advance(100ms);
-  REQUIRE(told.size() == 1);
-  CHECK(told[0].skills.at(0).hash == hash());
+  REQUIRE(reported.size() == 1);
+  CHECK(reported[0].skills.at(0).hash == hash());
   CHECK(hash() != before);
   CHECK(names() == std::vector<std::string>{"skill_removed", "skill_added"});
   CHECK(events[1].subject == "echo");
@@ -109,18 +109,19 @@ TEST_CASE_METHOD(watcher_bench, "who holds the folder of a build has it as it "
   CHECK(kept->skill.hash == before);
 }
 
-TEST_CASE_METHOD(watcher_bench, "nothing is told where nothing has changed") {
+TEST_CASE_METHOD(watcher_bench,
+                 "nothing is reported where nothing has changed") {
   start();
   touch();
   advance(1s);
-  CHECK(told.empty());
+  CHECK(reported.empty());
   CHECK(events.empty());
 }
 
 TEST_CASE_METHOD(watcher_bench, "what has changed before it began is seen") {
   folder.write("echo/extra", "");
   start();
-  CHECK(told.size() == 1);
+  CHECK(reported.size() == 1);
 }
 
 TEST_CASE_METHOD(watcher_bench, "a half-copied folder is blamed when it is "
@@ -132,30 +133,30 @@ TEST_CASE_METHOD(watcher_bench, "a half-copied folder is blamed when it is "
     advance(200ms);
   }
   // It was read once in between.
-  CHECK(told.empty());
+  CHECK(reported.empty());
   CHECK(events.empty());
   advance(1s);
-  REQUIRE(told.size() == 1);
-  CHECK(told[0].refused_skills.size() == 1);
+  REQUIRE(reported.size() == 1);
+  CHECK(reported[0].refused_skills.size() == 1);
   CHECK(names() == std::vector<std::string>{"skill_refused"});
   write("new");
   folder.write("new/extra", "");
   touch();
   advance(1s);
-  REQUIRE(told.size() == 2);
-  CHECK(told[1].refused_skills.empty());
-  CHECK(told[1].skills.size() == 2);
+  REQUIRE(reported.size() == 2);
+  CHECK(reported[1].refused_skills.empty());
+  CHECK(reported[1].skills.size() == 2);
   CHECK(names() == std::vector<std::string>{"skill_refused", "skill_added"});
 }
 
-TEST_CASE_METHOD(watcher_bench, "the same problem is told once") {
+TEST_CASE_METHOD(watcher_bench, "the same problem is reported once") {
   start();
   folder.write("new/skill.json", "{");
   for (int i = 0; i < 3; ++i) {
     touch();
     advance(1s);
   }
-  CHECK(told.size() == 1);
+  CHECK(reported.size() == 1);
   CHECK(events.size() == 1);
 }
 
@@ -168,9 +169,9 @@ TEST_CASE_METHOD(watcher_bench, "other directories are read at once") {
   settings.skill_dirs = {other.path()};
   caf::anon_send(watcher, settings);
   settle();
-  REQUIRE(told.size() == 1);
-  REQUIRE(told[0].skills.size() == 1);
-  CHECK(config.skills->get()->find(told[0].skills[0].hash)->path
+  REQUIRE(reported.size() == 1);
+  REQUIRE(reported[0].skills.size() == 1);
+  CHECK(config.skills->get()->find(reported[0].skills[0].hash)->path
         == other.path() / "more");
 }
 
