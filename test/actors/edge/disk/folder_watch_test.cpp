@@ -84,7 +84,7 @@ TEST_CASE("reading tells nothing, nor what is not watched any more") {
   SECTION("reading") {
     std::ifstream{folder / "echo/bin/echo"}.get();
     for (const auto& x : fs::recursive_directory_iterator{folder.path()})
-      fs::status(x);
+      CHECK(fs::exists(x));
   }
   SECTION("what is not watched any more") {
     REQUIRE(watch.follow({}).empty());
