@@ -13,6 +13,7 @@ start_line() {
   start_head
   server=$(discovery_of head)
   start_arm
+  await_joined head arm
 }
 
 # start_head: where it has been before, its members find it again.

@@ -139,7 +139,7 @@ std::string task_complaint(const site& place) {
 namespace {
 
 size_t reservations_kept(const site_party& x) {
-  using pointer = node_agent_actor::stateful_pointer<node_agent_state>;
+  using pointer = local_agent_actor::stateful_pointer<node_agent_state>;
   auto* actor =
       dynamic_cast<pointer>(caf::actor_cast<caf::abstract_actor*>(x.agent));
   return actor->state.kept.open(actor->clock().now(), {}).size();
