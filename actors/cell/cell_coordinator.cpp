@@ -139,7 +139,11 @@ void on_tick(coordinator_pointer self, uint64_t number) {
 }
 
 /// Takes up what the cell was at its coordinator's last end.
-void begin(coordinator_pointer self) {
+void begin(coordinator_pointer self, const actor_context& context,
+           const coordinator_setup& setup) {
+  self->state.context = context;
+  self->state.setup = setup;
+  self->state.peers = peer_table{setup.self.uuid};
   add_own_row(self);
   restore_members(self);
   restore_transfers(self);
@@ -153,6 +157,8 @@ void begin(coordinator_pointer self) {
   reconcile_own_node(self);
   measure_own_node(self);
   appear(self);
+  self->set_down_handler(
+      [self](const caf::down_msg& down) { on_down(self, down.source); });
 }
 
 } // namespace
@@ -160,12 +166,7 @@ void begin(coordinator_pointer self) {
 cell_coordinator_actor::behavior_type
 cell_coordinator(coordinator_pointer self, const actor_context& context,
                  const coordinator_setup& setup) {
-  self->state.context = context;
-  self->state.setup = setup;
-  self->state.peers = peer_table{setup.self.uuid};
-  begin(self);
-  self->set_down_handler(
-      [self](const caf::down_msg& down) { on_down(self, down.source); });
+  begin(self, context, setup);
   return {
       [self](const state_query&) { return state_of(summary(self)); },
       [self](const session_admitted& x) { on_session_admitted(self, x); },
