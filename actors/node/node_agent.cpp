@@ -201,10 +201,10 @@ local_agent_actor::behavior_type node_agent(node_agent_self self,
         return forward<kept_logs>(self, limits::history::list, x);
       },
       [self](const use_settings& x) {
-        auto& config = self->state.config;
-        config.labels = x.labels;
-        config.devices = x.devices;
-        config.cpu_floor = x.cpu_floor;
+        auto& mine = self->state.config;
+        mine.labels = x.labels;
+        mine.devices = x.devices;
+        mine.cpu_floor = x.cpu_floor;
       },
   };
 }
