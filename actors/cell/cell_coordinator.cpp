@@ -4,7 +4,6 @@
 #include "actors/cell/cell_members.hpp"
 #include "actors/cell/cell_peers.hpp"
 #include "actors/cell/cell_questions.hpp"
-#include "actors/cell/cell_skills.hpp"
 #include "actors/cell/cell_slots.hpp"
 #include "actors/cell/moves/abandoned_steps.hpp"
 #include "actors/cell/moves/task_move.hpp"

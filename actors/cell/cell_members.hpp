@@ -23,6 +23,14 @@ void on_member_lost(coordinator_pointer self, const member_lost& event);
 /// Rows that an earlier run of the coordinator had, as `expected`.
 void restore_members(coordinator_pointer self);
 
+/// A node has other skills. What is placed from then on is placed by them; what
+/// runs goes on.
+void on_member_skills_changed(coordinator_pointer self,
+                              const member_skills_changed& event);
+
+/// The same of the coordinator's own node.
+void on_own_skills_changed(coordinator_pointer self, const skills_changed& now);
+
 /// A member has ended. One that could not say so is lost.
 void on_member_down(coordinator_pointer self, const caf::actor_addr& gone);
 

@@ -1,4 +1,4 @@
-#include "actors/cell/cell_skills.hpp"
+#include "actors/cell/cell_members.hpp"
 
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/core/skill_changes.hpp"
