@@ -1,5 +1,7 @@
 #pragma once
 
+#include "actors/edge/disk/folder_files.hpp"
+#include "actors/edge/io/crypto.hpp"
 #include "actors/edge/io/edge_error.hpp"
 
 #include <cstdint>
@@ -8,11 +10,20 @@
 
 namespace roscell {
 
-/// How much of a folder is read before it is refused.
-struct folder_limits {
-  size_t max_files = 10'000;
-  uint64_t max_bytes = 16ULL << 30; ///< Checkpoints of models are large.
-  int max_depth = 32;
+/// The hash of a folder's content, made from its files in the order of their
+/// paths: this is what identifies a build.
+class folder_sum {
+public:
+  void add_link(const std::string& path, const std::string& target);
+
+  /// @param content SHA-256 of its bytes, in hexadecimal.
+  void add_file(const std::string& path, bool program,
+                const std::string& content);
+
+  std::string hex();
+
+private:
+  sha256_sum sum_;
 };
 
 /// SHA-256 over the content of a folder, as 64 hex digits: the relative paths
