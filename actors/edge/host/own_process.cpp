@@ -144,10 +144,14 @@ fs::path program_folder() {
   return fs::read_symlink("/proc/self/exe", problem).parent_path();
 }
 
-fs::path find_shim(const fs::path& bin) {
+fs::path find_private(const fs::path& bin, const std::string& name) {
   std::error_code problem;
-  const auto beside = bin / shim_name;
-  return fs::exists(beside, problem) ? beside : private_folder(bin) / shim_name;
+  const auto beside = bin / name;
+  return fs::exists(beside, problem) ? beside : private_folder(bin) / name;
+}
+
+fs::path find_shim(const fs::path& bin) {
+  return find_private(bin, shim_name);
 }
 
 fs::path installed_skills(const fs::path& bin) {

@@ -46,8 +46,12 @@ std::size_t raise_descriptor_limit();
 /// The folder of the program that this process runs. Empty if it is not known.
 std::filesystem::path program_folder();
 
-/// roscell-instance-shim: beside a program in `bin`, else where it is
+/// A program that nobody types: beside one in `bin`, else where it is
 /// installed. The file need not be there.
+std::filesystem::path find_private(const std::filesystem::path& bin,
+                                   const std::string& name);
+
+/// The same of roscell-instance-shim.
 std::filesystem::path find_shim(const std::filesystem::path& bin);
 
 /// The folder of the skills that are installed with a program in `bin`. It need

@@ -20,11 +20,23 @@ bool contains(const std::vector<std::string>& all, std::string_view wanted) {
   return std::find(all.begin(), all.end(), wanted) != all.end();
 }
 
-bool has_token(const http_access& access, const http::request_header<>& x) {
+std::string_view bearer_token(const http::request_header<>& x) {
   constexpr std::string_view scheme = "Bearer ";
   const auto value = value_of(x, http::field::authorization);
-  return !access.token.empty() && value.substr(0, scheme.size()) == scheme
-         && equal_in_constant_time(value.substr(scheme.size()), access.token);
+  return value.substr(0, scheme.size()) == scheme ? value.substr(scheme.size())
+                                                  : std::string_view{};
+}
+
+bool has_token(const http_access& access, const http::request_header<>& x) {
+  return !access.token.empty()
+         && equal_in_constant_time(bearer_token(x), access.token);
+}
+
+/// Whether the coordinator has let who asks read this path.
+bool has_permit(const http_access& access, const http::request_header<>& x,
+                const std::string& path, const std::string& from) {
+  return access.permits && x.method() == http::verb::get
+         && access.permits(path, bearer_token(x), from);
 }
 
 /// Whether the server is called as it may be, whatever the port.
@@ -62,11 +74,11 @@ std::string http_access::without_secret(std::string path) const {
 
 std::variant<http_caller, http_refusal>
 find_caller(const http_access& access, const http::request_header<>& x,
-            const std::string& path) {
+            const std::string& path, const std::string& from) {
   if (!names_host(access, x))
     return http_refusal{403, error_code::unauthorized,
                         "the Host header does not name this server", ""};
-  if (has_token(access, x))
+  if (has_token(access, x) || has_permit(access, x, path, from))
     return http_caller::trusted;
   if (access.has_secret(path)) {
     if (is_of_foreign_page(x))

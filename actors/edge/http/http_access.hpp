@@ -5,7 +5,9 @@
 #include <boost/beast/http/fields.hpp>
 #include <boost/beast/http/message.hpp>
 
+#include <functional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -18,6 +20,11 @@ struct http_access {
   std::string path_secret; ///< Begins a path in its stead; empty: none does.
   std::vector<std::string> hosts;        ///< The server's names; empty: any.
   std::vector<std::string> public_paths; ///< For everybody.
+  /// Whether a bearer token lets who asks from an address read this path, and
+  /// no other; empty: none does.
+  std::function<bool(const std::string& path, std::string_view token,
+                     const std::string& from)>
+      permits;
 
   /// Whether a path begins with the secret.
   bool has_secret(const std::string& path) const;
@@ -41,9 +48,10 @@ enum class http_caller {
 };
 
 /// What the header of a request for `path` tells of who asks.
+/// @param from the IP address that it comes from.
 std::variant<http_caller, http_refusal>
 find_caller(const http_access& access,
             const boost::beast::http::request_header<>& header,
-            const std::string& path);
+            const std::string& path, const std::string& from);
 
 } // namespace roscell

@@ -22,6 +22,16 @@ namespace http = boost::beast::http;
 
 constexpr size_t read_bytes = 8 * 1024;
 
+/// Manifests of builds are longer than requests.
+size_t body_bytes_for(const std::string& path, const http_limits& limits) {
+  constexpr std::string_view ending = "/manifest";
+  const bool manifest =
+      path.compare(0, builds_path.size(), builds_path) == 0
+      && path.size() > ending.size()
+      && path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+  return manifest ? limits::http::manifest_bytes : limits.body_bytes;
+}
+
 /// Static: the connection's own buffer is for replies.
 constexpr std::string_view go_on = "HTTP/1.1 100 Continue\r\n\r\n";
 
@@ -170,8 +180,9 @@ bool http_connection::on_header() {
     return false;
   }
   if (local_)
-    return check_body(shared_->limits.body_bytes);
-  const auto caller = find_caller(shared_->access, request, target->path);
+    return check_body(body_bytes_for(target->path, shared_->limits));
+  const auto caller = find_caller(shared_->access, request, target->path,
+                                  peer_of(socket_).address);
   if (const auto* why = std::get_if<http_refusal>(&caller)) {
     refuse_request(why->status, why->code, why->message, why->hint);
     return false;
@@ -182,7 +193,7 @@ bool http_connection::on_header() {
     refuse_crowd();
     return false;
   }
-  return check_body(shared_->limits.body_bytes);
+  return check_body(body_bytes_for(target->path, shared_->limits));
 }
 
 /// The reply has the form of one to a request, but none need have been read.

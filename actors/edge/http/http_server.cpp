@@ -167,7 +167,8 @@ http_server::start(io_thread& io, http_server_options options) {
   }
   auto shared = std::make_shared<http_shared>(io.core(), options.limits);
   shared->access = {std::move(options.token), std::move(options.path_secret),
-                    std::move(options.hosts), std::move(options.public_paths)};
+                    std::move(options.hosts), std::move(options.public_paths),
+                    std::move(options.permits)};
   shared->handler = std::move(options.handler);
   return std::make_unique<server_handle>(
       std::move(shared), std::move(options.socket_path), tcp, local);

@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace roscell {
@@ -28,6 +29,11 @@ struct http_server_options {
   std::vector<std::string> hosts;
   /// Paths that TCP clients may ask for without a token.
   std::vector<std::string> public_paths{"/healthz"};
+  /// Whether a bearer token lets who asks from an address read one path; may be
+  /// called by the io thread at any time. Empty: none does.
+  std::function<bool(const std::string& path, std::string_view token,
+                     const std::string& from)>
+      permits;
   http_limits limits;
   http_handler handler;
 };

@@ -31,6 +31,9 @@ inline constexpr std::string_view session_path = "/v1/session";
 /// proven in itself.
 inline constexpr const char* registration_path = "/v1/registration";
 
+/// Below it are the builds of skills that a node has.
+inline constexpr std::string_view builds_path = "/v1/builds/";
+
 /// Where anybody learns who a node is.
 inline constexpr const char* hello_path = "/v1/hello";
 

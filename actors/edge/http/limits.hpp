@@ -22,6 +22,8 @@ constexpr size_t header_bytes = 8 * kib;
 /// A request's body; more is answered with 413 before it is read.
 /// `document_limits` (schemas/document.hpp) takes JSON of this size.
 constexpr size_t body_bytes = mib;
+/// The same for the manifest of a build (limits::build).
+constexpr size_t manifest_bytes = 4 * mib;
 /// The same for unauthenticated peers, on the few paths that are open to them:
 /// more than the longest registration switch.
 constexpr size_t public_body_bytes = 8 * kib;

@@ -45,6 +45,41 @@ digest hmac_sha256(std::string_view key, std::string_view text) {
   return result;
 }
 
+struct sha256_sum::context {
+  EVP_MD_CTX* handle = EVP_MD_CTX_new();
+};
+
+sha256_sum::sha256_sum() : context_(std::make_unique<context>()) {
+  if (context_->handle == nullptr
+      || EVP_DigestInit_ex(context_->handle, EVP_sha256(), nullptr) != 1)
+    throw std::runtime_error("libcrypto cannot compute SHA-256");
+}
+
+sha256_sum::~sha256_sum() {
+  EVP_MD_CTX_free(context_->handle);
+}
+
+void sha256_sum::add(std::string_view bytes) {
+  EVP_DigestUpdate(context_->handle, bytes.data(), bytes.size());
+}
+
+void sha256_sum::add_text(std::string_view text) {
+  add(std::to_string(text.size()) + ':');
+  add(text);
+}
+
+std::string sha256_sum::hex() {
+  digest result{};
+  EVP_DigestFinal_ex(context_->handle, result.data(), nullptr);
+  return to_hex(result);
+}
+
+std::string sha256_hex(std::string_view bytes) {
+  sha256_sum sum;
+  sum.add(bytes);
+  return sum.hex();
+}
+
 std::string_view as_bytes(const digest& value) {
   return {reinterpret_cast<const char*>(value.data()), value.size()};
 }

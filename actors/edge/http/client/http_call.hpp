@@ -33,6 +33,7 @@ struct http_call {
   http_call();
 
   http_endpoint to;
+  std::string from; ///< Local address to ask by TCP from; empty: any.
   std::string method = "GET";
   std::string target; ///< Path and query, percent-encoded, begins with '/'.
   std::map<std::string, std::string> headers;

@@ -24,6 +24,8 @@
 
 namespace roscell {
 
+namespace fs = std::filesystem;
+
 namespace {
 
 /// The IPv4 address of a host.
@@ -228,6 +230,24 @@ http_client::follow(const std::string& path,
   if (auto why = reader.finish())
     return std::move(*why);
   return result;
+}
+
+edge_result<http_reply>
+http_client::download(const std::string& path,
+                      const std::function<bool(std::string_view)>& on_bytes,
+                      const options& how) const {
+  http_callbacks calls;
+  calls.on_bytes = on_bytes;
+  return run(call_to(path, how), how, std::move(calls));
+}
+
+edge_result<http_reply> http_client::send_file(const std::string& path,
+                                               const fs::path& file,
+                                               const options& how) const {
+  auto what = call_to(path, how);
+  what.method = "POST";
+  what.file = file;
+  return run(what, how, {});
 }
 
 } // namespace roscell

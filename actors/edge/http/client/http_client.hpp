@@ -3,6 +3,7 @@
 #include "actors/edge/http/client/http_call.hpp"
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
@@ -84,6 +85,19 @@ public:
   follow(const std::string& path,
          const std::function<bool(std::string_view line)>& on_line,
          const options& how) const;
+
+  /// Asks by GET for a reply that is passed on as it comes, until `on_bytes`
+  /// returns false; `timeout` holds for all of it. The body of the result is
+  /// empty, but if the server refused it is the whole reply. Errors: as above.
+  edge_result<http_reply>
+  download(const std::string& path,
+           const std::function<bool(std::string_view)>& on_bytes,
+           const options& how) const;
+
+  /// Sends a tar file by POST. Errors: as above; one that cannot be read.
+  edge_result<http_reply> send_file(const std::string& path,
+                                    const std::filesystem::path& file,
+                                    const options& how) const;
 
 private:
   http_call call_to(const std::string& path, const options& how) const;

@@ -105,6 +105,13 @@ void http_exchange::connect() {
   boost::asio::generic::stream_protocol::endpoint whom;
   if (what_.to.socket_path.empty()) {
     open_tcp(socket_);
+    if (!what_.from.empty()) {
+      error ec;
+      socket_.bind(ip::tcp::endpoint{ip::make_address_v4(what_.from), 0}, ec);
+      if (ec)
+        return finish(
+            http_failure{http_failure::kind::no_connection, {}, ec.value()});
+    }
     whom =
         ip::tcp::endpoint{ip::make_address_v4(what_.to.address), what_.to.port};
   } else {

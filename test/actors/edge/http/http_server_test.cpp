@@ -60,6 +60,33 @@ TEST_CASE("TCP needs the bearer token but for public paths") {
   CHECK(node.requests.size() == 0);
 }
 
+TEST_CASE("a permit is for reading, of what it names, by whom it names") {
+  io_thread io;
+  http_server_options options;
+  options.port = 0;
+  options.token = "the-bearer-token";
+  options.handler = [](const http_request&, const responder& answer) {
+    answer.reply(200, "text/plain", "read");
+  };
+  options.permits = [](const std::string& path, std::string_view token,
+                       const std::string& from) {
+    return path == "/allowed" && token == "permit" && from == "127.0.0.1";
+  };
+  const auto server = expect(http_server::start(io, options));
+  const auto status = [&](const std::string& what, const std::string& token) {
+    raw_client client{server->port()};
+    client.send(what + " HTTP/1.1\r\nAuthorization: Bearer " + token
+                + "\r\nContent-Length: 0\r\nConnection: close\r\n\r\n");
+    return client.read_to_end().substr(0, 12);
+  };
+  CHECK(status("GET /allowed", "permit") == "HTTP/1.1 200");
+  CHECK(status("GET /allowed", "permi") == "HTTP/1.1 401");
+  CHECK(status("GET /allowed/more", "permit") == "HTTP/1.1 401");
+  CHECK(status("POST /allowed", "permit") == "HTTP/1.1 401");
+  CHECK(status("GET /other", "permit") == "HTTP/1.1 401");
+  CHECK(status("GET /other", "the-bearer-token") == "HTTP/1.1 200");
+}
+
 TEST_CASE("a server without a token lets nobody in by TCP") {
   io_thread io;
   http_server_options options;
