@@ -66,11 +66,19 @@ using node_agent_actor = introspected_actor::extend<
     caf::replies_to<figures_query>::with<figures_report>,
     // Errors: unknown_task.
     caf::replies_to<log_query>::with<log_excerpt>,
-    caf::replies_to<kept_logs_query>::with<kept_logs>>;
+    caf::replies_to<kept_logs_query>::with<kept_logs>,
+    // Replies once the build is there, whole. Errors: as the BUILD FETCHER's.
+    caf::replies_to<build_keeping>::with<build_kept>,
+    caf::replies_to<build_release>::with<build_released>,
+    // What this node's engine does not know is no error. Errors: engine_failed.
+    caf::replies_to<image_query>::with<image_known>,
+    // Errors: as the IMAGE EXCHANGE's.
+    caf::replies_to<image_sharing>::with<image_shared>>;
 
 /// The node agent of this machine.
 using local_agent_actor =
-    node_agent_actor::extend<caf::reacts_to<use_settings>>;
+    node_agent_actor::extend<caf::reacts_to<use_settings>,
+                             caf::reacts_to<serve_builds>>;
 
 /// The RESOURCE PROBE: answers when asked, at once; it never polls.
 using resource_probe_actor = introspected_actor::extend<
@@ -161,6 +169,9 @@ using membership_actor = introspected_actor::extend<
     // A request that a coordinator answers goes to this node's. It always
     // replies, as the REQUEST ROUTER does.
     caf::replies_to<route_request>::with<request_routed>,
+    // For this node's engine. Errors: unreachable (in no cell), and those of
+    // the coordinator.
+    caf::replies_to<image_request>::with<image_offered>,
     // What the coordinator asks the node goes there.
     caf::reacts_to<serve_members>, caf::reacts_to<coordinator_found>,
     caf::reacts_to<presence_seen>, caf::reacts_to<presence_gone>,
@@ -242,6 +253,20 @@ using cell_coordinator_actor = introspected_actor::extend<
     // Replies once each node has told, or is not waited for any longer.
     caf::replies_to<kept_logs_query>::with<kept_logs>,
     caf::replies_to<skill_query>::with<skill_list>,
+    // Replies once a second node has it and the store has kept it. Errors:
+    // unknown_node, conflict (another build of that version and architecture,
+    // too many builds), schema_violation (it is no skill), unreachable,
+    // internal.
+    caf::replies_to<skill_addition>::with<skill_added>,
+    // Errors: unknown_operation, conflict (it runs, or is on its way),
+    // internal.
+    caf::replies_to<skill_removal>::with<skill_removed>,
+    // Replies once the node has it. Errors: unknown_operation, unknown_node,
+    // conflict (the node fetches no builds), unreachable, internal.
+    caf::replies_to<skill_pull>::with<skill_pulled>,
+    // Replies once a node has made a build of the image. Errors: unknown_node,
+    // conflict (no node's engine knows it), and those of the nodes.
+    caf::replies_to<image_request>::with<image_offered>,
     // Waits while the same request is being deployed. The task is the sender's
     // until all of it runs or the sender ends. Errors: task_exists, conflict.
     caf::replies_to<claim_task>::with<task_claimed>,

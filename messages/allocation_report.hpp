@@ -53,6 +53,8 @@ struct step_allocation {
   double variance = 0;
   double bonus = 0;
   std::string build; ///< Hash of the skill's build; empty on paper.
+  /// What the node has to fetch before it can start the step.
+  double fetch_mib = 0;
 
   static constexpr auto fields() {
     return field_list{required("step", &step_allocation::step),
@@ -62,7 +64,8 @@ struct step_allocation {
                       required("fractions", &step_allocation::fractions),
                       required("variance", &step_allocation::variance),
                       required("bonus", &step_allocation::bonus),
-                      optional("build", &step_allocation::build)};
+                      optional("build", &step_allocation::build),
+                      optional("fetch_mib", &step_allocation::fetch_mib)};
   }
 };
 

@@ -282,6 +282,27 @@ inline constexpr event_kind skill_removed{
     "A node has that build no more, as its folder was edited or has gone: "
     "`node`, `hash`, `version`, and on the node `path`. What runs of it goes "
     "on."};
+inline constexpr event_kind cell_skill_added{
+    "cell_skill_added", "operation", "the coordinator",
+    "A build is one of the cell's skills now: `hash`, `version`, `bytes`, and "
+    "the `keepers` that never let it go."};
+inline constexpr event_kind cell_skill_removed{
+    "cell_skill_removed", "operation", "the coordinator",
+    "A build is none of the cell's skills any more: `hash` and `version`."};
+inline constexpr event_kind build_stored{
+    "build_stored", "build", "a node that it has come to",
+    "All of a build is here and has been checked: its `bytes`, and the "
+    "`cell`."};
+inline constexpr event_kind build_fetching{
+    "build_fetching", "build", "a node that needs it",
+    "How much of it is here: `pieces` of `of`, once a second at most."};
+inline constexpr event_kind build_fetched{
+    "build_fetched", "build", "a node that needed it",
+    "It came from other nodes: its `bytes`, how long it `took_ms`, and how "
+    "many `pieces` each source gave."};
+inline constexpr event_kind build_source_lost{
+    "build_source_lost", "build", "a node that needed it",
+    "A `source` is asked no more for this build: the `reason`."};
 inline constexpr event_kind skills_not_watched{
     "skills_not_watched", "node", "every node",
     "Not all folders of skills can be watched, so that what changes there is "
@@ -313,6 +334,24 @@ inline constexpr event_kind image_building{
 inline constexpr event_kind image_built{
     "image_built", "image", "a node with a container engine",
     "The image is there: `operation` and `ms`."};
+inline constexpr event_kind image_fetched{
+    "image_fetched", "image", "a node with a container engine",
+    "The engine has got it from that of another `node`: its `image_id` and "
+    "`bytes`, and how long it `took_ms`."};
+inline constexpr event_kind image_not_fetched{
+    "image_not_fetched", "image", "a node with a container engine",
+    "No node gives it, so its registry is asked: the `reason`."};
+inline constexpr event_kind image_shared{
+    "image_shared", "image", "a node with a container engine",
+    "The engine has saved it for others: the `build` that it is on its way, "
+    "its `bytes`, and how long it `took_ms`."};
+inline constexpr event_kind image_pulled{
+    "image_pulled", "image", "a node with a container engine",
+    "The engine has got it from its `registry`: its `image_id`."};
+inline constexpr event_kind image_removed{
+    "image_removed", "image", "a node with a container engine",
+    "The image of a skill is removed: no container has it, and newer ones "
+    "there are as many as are kept."};
 inline constexpr event_kind safety_not_asked{
     "safety_not_asked", "instance", "a node with a container engine",
     "A container cannot be asked to become stop-safe: `reason`."};

@@ -45,13 +45,44 @@ using process_runtime_actor =
                           // INTERNAL: alarm number N is due.
                           caf::reacts_to<caf::tick_atom, uint64_t>>;
 
+/// Who gets images from other nodes: the membership, or the coordinator.
+using image_broker_actor =
+    caf::typed_actor<caf::replies_to<image_request>::with<image_offered>>;
+
+/// The IMAGE EXCHANGE: container images that this node's engine gets from those
+/// of other nodes, or gives to them.
+using image_exchange_actor = introspected_actor::extend<
+    // Replies once the engine has it. Errors: conflict (the node is in no cell,
+    // or no node has it), unreachable (no source gives it), schema_violation
+    // (what has come is another image), engine_failed (it cannot be loaded).
+    caf::replies_to<bring_image>::with<image_brought>,
+    // Errors: engine_failed.
+    caf::replies_to<image_query>::with<image_known>,
+    // Errors: conflict (there is no room for it), engine_failed (it cannot be
+    // saved), internal (the disk).
+    caf::replies_to<image_sharing>::with<image_shared>,
+    caf::reacts_to<serve_images>>;
+
+/// The IMAGE WORKER: asks the engine about one image, and waits for it.
+using image_worker_actor = introspected_actor::extend<
+    // Errors: engine_failed.
+    caf::replies_to<image_query>::with<image_known>,
+    caf::replies_to<list_layers>::with<layers_listed>,
+    // Errors: conflict (it is too large), engine_failed, internal (the disk).
+    caf::replies_to<save_image>::with<image_saved>,
+    // Errors: schema_violation (it is another image), engine_failed, internal.
+    caf::replies_to<load_image>::with<image_loaded>>;
+
 /// The IMAGE PACKER: looks into one skill folder and packs it.
 using image_packer_actor = introspected_actor::extend<
     // Errors: engine_failed (missing or not executable entry point, a library
     // that this host has not).
     caf::replies_to<prepare_image>::with<image_planned>,
     // Errors: engine_failed (the disk is full), conflict (nothing is planned).
-    caf::replies_to<pack_image>::with<image_packed>>;
+    caf::replies_to<pack_image>::with<image_packed>,
+    // How this host's user logs in to a registry. Errors: unauthorized (the
+    // file of logins or a helper cannot be used).
+    caf::replies_to<find_login>::with<login_found>>;
 
 /// The ENGINE RUNTIME: runs skills as containers of Docker or Podman.
 using engine_runtime_actor =
@@ -94,6 +125,7 @@ using skill_listener_actor = caf::typed_actor<caf::reacts_to<skills_changed>>;
 /// their folders. It blocks on the disk.
 using skill_watcher_actor =
     introspected_actor::extend<caf::reacts_to<skill_folders_touched>,
+                               caf::replies_to<read_skills>::with<skills_read>,
                                // Other folders, which are read at once.
                                caf::reacts_to<use_settings>,
                                // INTERNAL: alarm number N is due.
@@ -122,5 +154,35 @@ using container_supervisor_actor = introspected_actor::extend<
     caf::reacts_to<instance_notified>, caf::reacts_to<runtime_problem_changed>,
     // INTERNAL: from a skill instance.
     caf::reacts_to<instance_changed>>;
+
+/// The BUILD KEEPER: the builds on this node's disk. It blocks there.
+using build_keeper_actor = introspected_actor::extend<
+    // Nothing happens to one that is here. Errors: schema_violation (the
+    // manifest), conflict (what is in use leaves too little room), internal
+    // (the disk).
+    caf::replies_to<offer_build>::with<build_held>,
+    // Errors: schema_violation (other bytes than that piece's), conflict (no
+    // such build is here, or it is another one), internal.
+    caf::replies_to<store_piece>::with<build_held>,
+    // Errors: conflict (it is not here; too many wait for more of one).
+    caf::replies_to<build_query>::with<build_held>,
+    caf::replies_to<piece_query>::with<piece_read>,
+    caf::replies_to<pin_build>::with<build_held>,
+    // Errors: conflict too (it is for other architectures).
+    caf::replies_to<use_build>::with<build_held>,
+    // Errors: schema_violation too (it is no skill).
+    caf::replies_to<describe_build>::with<build_described>,
+    // Errors: as for `offer_build`.
+    caf::replies_to<take_build>::with<build_held>,
+    // Errors: conflict (it is in use), internal.
+    caf::replies_to<drop_build>::with<build_dropped>,
+    caf::reacts_to<belong_to_cell>>;
+
+/// The BUILD FETCHER: gets builds from other nodes of the cell.
+using build_fetcher_actor = introspected_actor::extend<
+    // Replies once the build is here, whole and checked. Errors: unreachable
+    // (no source gives it, or those that do lie), and those of the keeper.
+    caf::replies_to<fetch_build>::with<build_fetched>,
+    caf::reacts_to<source_answered>>;
 
 } // namespace roscell

@@ -3,13 +3,17 @@
 /// All that is said inside a node: for the files of actors, which are compiled
 /// with it as their precompiled header.
 #include "messages/allocation_report.hpp"
+#include "messages/build.hpp"
 #include "messages/cell.hpp"
 #include "messages/event.hpp"
 #include "messages/failure.hpp"
 #include "messages/formation.hpp"
+#include "messages/image.hpp"
 #include "messages/inside/agent.hpp"
+#include "messages/inside/builds.hpp"
 #include "messages/inside/coordination.hpp"
 #include "messages/inside/engine.hpp"
+#include "messages/inside/images.hpp"
 #include "messages/inside/introspection.hpp"
 #include "messages/inside/link.hpp"
 #include "messages/inside/membership.hpp"

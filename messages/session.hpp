@@ -68,6 +68,7 @@ struct node_registration {
   /// Its discovery server tells the cell's all that it knows anew after each
   /// registration.
   bool tells_anew = false;
+  bool fetches_builds = false; ///< It can get skills from other nodes.
 
   static constexpr auto fields() {
     return field_list{
@@ -82,7 +83,8 @@ struct node_registration {
         optional("cell_uuid", &node_registration::cell_uuid),
         optional("server_id", &node_registration::server_id),
         optional("server_cell", &node_registration::server_cell),
-        optional("tells_anew", &node_registration::tells_anew)};
+        optional("tells_anew", &node_registration::tells_anew),
+        optional("fetches_builds", &node_registration::fetches_builds)};
   }
 };
 
@@ -121,6 +123,9 @@ struct node_registered {
   /// The coordinator takes `skills_changed`; one of an earlier version counts
   /// it as a frame that makes no sense.
   bool hears_skills = false;
+  /// What the coordinator signs permits with for builds that this node gives to
+  /// others; empty: one of an earlier version.
+  std::string build_key;
 
   static constexpr auto fields() {
     return field_list{required("cell", &node_registered::cell),
@@ -130,7 +135,8 @@ struct node_registered {
                       optional("cell_uuid", &node_registered::cell_uuid),
                       one_or_many("discovery", &node_registered::discovery),
                       optional("tells_anew", &node_registered::tells_anew),
-                      optional("hears_skills", &node_registered::hears_skills)};
+                      optional("hears_skills", &node_registered::hears_skills),
+                      optional("build_key", &node_registered::build_key)};
   }
 };
 
@@ -208,9 +214,11 @@ struct figures_report {
 struct instance_deployment {
   static constexpr const char* type = "instance_deployment";
   instance_spec spec;
+  build_offer fetch; ///< Where the node gets the skill; no hash: it has it.
 
   static constexpr auto fields() {
-    return field_list{required("spec", &instance_deployment::spec)};
+    return field_list{required("spec", &instance_deployment::spec),
+                      optional("fetch", &instance_deployment::fetch)};
   }
 };
 

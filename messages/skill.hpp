@@ -1,5 +1,6 @@
 #pragma once
 
+#include "messages/build.hpp"
 #include "messages/resources.hpp"
 
 #include <map>
@@ -195,11 +196,16 @@ struct skill_row {
   std::vector<std::string> nodes;
   /// When each of the nodes got it, in their order.
   std::vector<int64_t> added_unix_ms;
+  /// Those of the nodes that get it when they need it, and what comes then.
+  std::vector<std::string> lacking;
+  int64_t bytes = 0;
 
   static constexpr auto fields() {
     return field_list{required("skill", &skill_row::skill),
                       required("nodes", &skill_row::nodes),
-                      optional("added_unix_ms", &skill_row::added_unix_ms)};
+                      optional("added_unix_ms", &skill_row::added_unix_ms),
+                      optional("lacking", &skill_row::lacking),
+                      optional("bytes", &skill_row::bytes)};
   }
 };
 
@@ -214,14 +220,145 @@ struct refused_skill {
   }
 };
 
+/// A build that was added to the cell: it goes to each node that needs it.
+struct cell_build {
+  build_name build;
+  installed_skill skill;
+  int64_t added_unix_ms = 0;
+  std::vector<std::string> keepers; ///< Nodes that never let it go.
+  // Said where it is asked for, not stored.
+  std::vector<std::string> coming_to; ///< Nodes that fetch it for a step.
+  int64_t instances = 0;              ///< What runs of it, or will.
+
+  static constexpr auto fields() {
+    return field_list{required("build", &cell_build::build),
+                      required("skill", &cell_build::skill),
+                      required("added_unix_ms", &cell_build::added_unix_ms),
+                      required("keepers", &cell_build::keepers),
+                      optional("coming_to", &cell_build::coming_to),
+                      optional("instances", &cell_build::instances)};
+  }
+};
+
 struct skill_list {
   static constexpr const char* type = "skill_list";
   std::vector<skill_row> skills;
   std::vector<refused_skill> refused; ///< In the order of the nodes.
+  std::vector<cell_build> builds;     ///< Of the cell, by operation.
 
   static constexpr auto fields() {
     return field_list{required("skills", &skill_list::skills),
-                      optional("refused", &skill_list::refused)};
+                      optional("refused", &skill_list::refused),
+                      optional("builds", &skill_list::builds)};
+  }
+};
+
+/// Adds a build to the cell's skills; a node of the cell has it.
+struct skill_addition {
+  static constexpr const char* type = "skill_addition";
+  build_name build;
+  std::string node; ///< The one that has it.
+
+  static constexpr auto fields() {
+    return field_list{required("build", &skill_addition::build),
+                      required("node", &skill_addition::node)};
+  }
+};
+
+/// It is on a second node, too, unless the cell has one only.
+struct skill_added {
+  static constexpr const char* type = "skill_added";
+  cell_build added;
+
+  static constexpr auto fields() {
+    return field_list{required("added", &skill_added::added)};
+  }
+};
+
+/// Takes builds from the cell's skills: all of an operation, or one.
+struct skill_removal {
+  static constexpr const char* type = "skill_removal";
+  std::string operation;
+  std::string build; ///< The first digits of its hash; empty: all.
+
+  static constexpr auto fields() {
+    return field_list{required("operation", &skill_removal::operation),
+                      optional("build", &skill_removal::build)};
+  }
+};
+
+struct skill_removed {
+  static constexpr const char* type = "skill_removed";
+  std::vector<cell_build> removed;
+
+  static constexpr auto fields() {
+    return field_list{required("removed", &skill_removed::removed)};
+  }
+};
+
+/// Has a node fetch a build of the cell, the newest of an operation or one.
+struct skill_pull {
+  static constexpr const char* type = "skill_pull";
+  std::string operation;
+  std::string build; ///< The first digits of its hash; empty: the newest.
+  std::string node;  ///< The one that fetches it.
+
+  static constexpr auto fields() {
+    return field_list{required("operation", &skill_pull::operation),
+                      optional("build", &skill_pull::build),
+                      required("node", &skill_pull::node)};
+  }
+};
+
+/// The node has it now.
+struct skill_pulled {
+  static constexpr const char* type = "skill_pulled";
+  cell_build pulled;
+
+  static constexpr auto fields() {
+    return field_list{required("pulled", &skill_pulled::pulled)};
+  }
+};
+
+/// Has a node fetch a build and keep it for the cell.
+struct build_keeping {
+  static constexpr const char* type = "build_keeping";
+  std::string cell;
+  build_offer offer;
+  bool pinned = true; ///< It stays there, whatever else needs the room.
+
+  static constexpr auto fields() {
+    return field_list{required("cell", &build_keeping::cell),
+                      required("offer", &build_keeping::offer),
+                      optional("pinned", &build_keeping::pinned)};
+  }
+};
+
+struct build_kept {
+  static constexpr const char* type = "build_kept";
+  std::string hash;
+
+  static constexpr auto fields() {
+    return field_list{required("hash", &build_kept::hash)};
+  }
+};
+
+/// The cell does not count on that copy any more.
+struct build_release {
+  static constexpr const char* type = "build_release";
+  std::string hash;
+
+  static constexpr auto fields() {
+    return field_list{required("hash", &build_release::hash)};
+  }
+};
+
+struct build_released {
+  static constexpr const char* type = "build_released";
+  std::string hash;
+
+  static constexpr auto fields() {
+    return field_list{required("hash", &build_released::hash)};
   }
 };
 

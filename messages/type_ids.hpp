@@ -11,6 +11,53 @@
 #define ROSCELL_MESSAGE_STRUCTS(X)                                             \
   X(skill_query)                                                               \
   X(skill_list)                                                                \
+  X(skill_addition)                                                            \
+  X(skill_added)                                                               \
+  X(skill_removal)                                                             \
+  X(skill_removed)                                                             \
+  X(skill_pull)                                                                \
+  X(skill_pulled)                                                              \
+  X(build_keeping)                                                             \
+  X(build_kept)                                                                \
+  X(build_release)                                                             \
+  X(build_released)                                                            \
+  X(image_request)                                                             \
+  X(image_offered)                                                             \
+  X(image_query)                                                               \
+  X(image_known)                                                               \
+  X(image_sharing)                                                             \
+  X(image_shared)                                                              \
+  X(bring_image)                                                               \
+  X(image_brought)                                                             \
+  X(serve_images)                                                              \
+  X(list_layers)                                                               \
+  X(layers_listed)                                                             \
+  X(save_image)                                                                \
+  X(image_saved)                                                               \
+  X(load_image)                                                                \
+  X(image_loaded)                                                              \
+  X(take_build)                                                                \
+  X(find_login)                                                                \
+  X(login_found)                                                               \
+  X(offer_build)                                                               \
+  X(build_held)                                                                \
+  X(store_piece)                                                               \
+  X(build_query)                                                               \
+  X(piece_query)                                                               \
+  X(piece_read)                                                                \
+  X(pin_build)                                                                 \
+  X(use_build)                                                                 \
+  X(describe_build)                                                            \
+  X(build_described)                                                           \
+  X(drop_build)                                                                \
+  X(serve_builds)                                                              \
+  X(belong_to_cell)                                                            \
+  X(read_skills)                                                               \
+  X(skills_read)                                                               \
+  X(build_dropped)                                                             \
+  X(fetch_build)                                                               \
+  X(build_fetched)                                                             \
+  X(source_answered)                                                           \
   X(instance_query)                                                            \
   X(instance_description)                                                      \
   X(log_query)                                                                 \

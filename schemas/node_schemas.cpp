@@ -1,4 +1,5 @@
 #include "messages/handshake.hpp"
+#include "messages/image.hpp"
 #include "messages/reservation.hpp"
 #include "messages/session.hpp"
 #include "schemas/rules/field_schema.hpp"
@@ -9,6 +10,10 @@
 namespace roscell {
 
 // What users see of a cell, too, is described where they find it.
+template <>
+constexpr const char* shared_definition<build_name> = "build_name";
+template <>
+constexpr const char* shared_definition<build_offer> = "build_offer";
 template <>
 constexpr const char* shared_definition<installed_skill> = "installed_skill";
 template <>
@@ -71,6 +76,11 @@ std::vector<schema_entry> node_schemas() {
   add_exchange<instance_reservation, instances_reserved>(result);
   add_exchange<instance_deployment, instance_deployed>(result);
   add_exchange<instance_removal, instances_removed>(result);
+  add_exchange<build_keeping, build_kept>(result);
+  add_exchange<build_release, build_released>(result);
+  add_exchange<image_request, image_offered>(result);
+  add_exchange<image_query, image_known>(result);
+  add_exchange<image_sharing, image_shared>(result);
   add_exchange<place_request, place_granted>(result);
   add_exchange<place_reservation, place_reserved>(result);
   add_exchange<member_surrender, members_surrendered>(result);

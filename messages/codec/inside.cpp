@@ -1,7 +1,9 @@
 #include "messages/codec/instantiate.hpp"
 #include "messages/inside/agent.hpp"
+#include "messages/inside/builds.hpp"
 #include "messages/inside/coordination.hpp"
 #include "messages/inside/engine.hpp"
+#include "messages/inside/images.hpp"
 #include "messages/inside/introspection.hpp"
 #include "messages/inside/link.hpp"
 #include "messages/inside/membership.hpp"
@@ -12,6 +14,37 @@
 
 namespace roscell {
 
+ROSCELL_DESCRIBED(offer_build)
+ROSCELL_DESCRIBED(build_held)
+ROSCELL_DESCRIBED(store_piece)
+ROSCELL_DESCRIBED(build_query)
+ROSCELL_DESCRIBED(piece_query)
+ROSCELL_DESCRIBED(piece_read)
+ROSCELL_DESCRIBED(pin_build)
+ROSCELL_DESCRIBED(use_build)
+ROSCELL_DESCRIBED(describe_build)
+ROSCELL_DESCRIBED(build_described)
+ROSCELL_DESCRIBED(drop_build)
+ROSCELL_DESCRIBED(serve_builds)
+ROSCELL_DESCRIBED(belong_to_cell)
+ROSCELL_DESCRIBED(read_skills)
+ROSCELL_DESCRIBED(skills_read)
+ROSCELL_DESCRIBED(build_dropped)
+ROSCELL_DESCRIBED(fetch_build)
+ROSCELL_DESCRIBED(build_fetched)
+ROSCELL_DESCRIBED(bring_image)
+ROSCELL_DESCRIBED(image_brought)
+ROSCELL_DESCRIBED(serve_images)
+ROSCELL_DESCRIBED(list_layers)
+ROSCELL_DESCRIBED(layers_listed)
+ROSCELL_DESCRIBED(save_image)
+ROSCELL_DESCRIBED(image_saved)
+ROSCELL_DESCRIBED(load_image)
+ROSCELL_DESCRIBED(image_loaded)
+ROSCELL_DESCRIBED(take_build)
+ROSCELL_DESCRIBED(find_login)
+ROSCELL_DESCRIBED(login_found)
+ROSCELL_DESCRIBED(source_answered)
 ROSCELL_DESCRIBED(measure_host)
 ROSCELL_DESCRIBED(host_measured)
 ROSCELL_DESCRIBED(measured_instance)

@@ -1,6 +1,7 @@
 #include "messages/allocation_report.hpp"
 #include "messages/cell.hpp"
 #include "messages/codec/instantiate.hpp"
+#include "messages/image.hpp"
 #include "messages/insight/examination.hpp"
 #include "messages/insight/request_trace.hpp"
 #include "messages/reservation.hpp"
@@ -30,6 +31,23 @@ ROSCELL_CODEC(refused_skill)
 ROSCELL_CODEC(skill_query)
 ROSCELL_CODEC(skill_row)
 ROSCELL_CODEC(skill_list)
+ROSCELL_CODEC(cell_build)
+ROSCELL_CODEC(skill_addition)
+ROSCELL_CODEC(skill_added)
+ROSCELL_CODEC(skill_removal)
+ROSCELL_CODEC(skill_removed)
+ROSCELL_CODEC(skill_pull)
+ROSCELL_CODEC(skill_pulled)
+ROSCELL_CODEC(build_keeping)
+ROSCELL_CODEC(build_kept)
+ROSCELL_CODEC(build_release)
+ROSCELL_CODEC(build_released)
+ROSCELL_CODEC(image_request)
+ROSCELL_CODEC(image_offered)
+ROSCELL_CODEC(image_query)
+ROSCELL_CODEC(image_known)
+ROSCELL_CODEC(image_sharing)
+ROSCELL_CODEC(image_shared)
 ROSCELL_CODEC(port_description)
 ROSCELL_CODEC(scheduling_request)
 ROSCELL_CODEC(deployment_option)

@@ -152,10 +152,13 @@ struct record_intent {
 struct intent_recorded {
   std::vector<instance_spec> specs;     ///< Completed with what the cell adds.
   std::vector<node_agent_actor> agents; ///< Agent of each spec's node.
+  /// Where each node gets the build, unless it has it.
+  std::vector<build_offer> offers;
 
   static constexpr auto fields() {
     return field_list{required("specs", &intent_recorded::specs),
-                      required("agents", &intent_recorded::agents)};
+                      required("agents", &intent_recorded::agents),
+                      required("offers", &intent_recorded::offers)};
   }
 };
 

@@ -73,8 +73,12 @@ struct image_planned {
 
 /// Writes the build context of the image that was planned last.
 struct pack_image {
+  /// The id of its base image, where the name is one that the engine does not
+  /// know it by; empty: the name.
+  std::string base;
+
   static constexpr auto fields() {
-    return field_list{};
+    return field_list{required("base", &pack_image::base)};
   }
 };
 
@@ -83,6 +87,23 @@ struct image_packed {
 
   static constexpr auto fields() {
     return field_list{required("file", &image_packed::file)};
+  }
+};
+
+/// Asks how to log in where an image is pulled from.
+struct find_login {
+  std::string image;
+
+  static constexpr auto fields() {
+    return field_list{required("image", &find_login::image)};
+  }
+};
+
+struct login_found {
+  std::string header; ///< For the engine, a secret; empty: there is none.
+
+  static constexpr auto fields() {
+    return field_list{required("header", &login_found::header)};
   }
 };
 

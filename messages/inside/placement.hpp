@@ -75,12 +75,17 @@ struct skill_build {
   implementation_model model;     ///< Only the deployments to choose from.
   std::vector<std::string> nodes; ///< Those on which it is the candidate.
   bool safe_state = false;        ///< It says when it may be ended.
+  /// Those of the nodes that have to fetch it, and what comes then.
+  std::vector<std::string> lacking;
+  int64_t bytes = 0;
 
   static constexpr auto fields() {
     return field_list{required("hash", &skill_build::hash),
                       required("model", &skill_build::model),
                       required("nodes", &skill_build::nodes),
-                      required("safe_state", &skill_build::safe_state)};
+                      required("safe_state", &skill_build::safe_state),
+                      required("lacking", &skill_build::lacking),
+                      required("bytes", &skill_build::bytes)};
   }
 };
 

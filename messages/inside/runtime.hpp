@@ -367,6 +367,19 @@ struct skill_folders_touched {
   }
 };
 
+/// Has the folders of skills read at once.
+struct read_skills {
+  static constexpr auto fields() {
+    return field_list{};
+  }
+};
+
+struct skills_read {
+  static constexpr auto fields() {
+    return field_list{};
+  }
+};
+
 /// Replaces whom the supervisor tells of changes.
 struct listen_to_instances {
   instance_listener_actor listener;

@@ -41,14 +41,19 @@ struct cost_window {
   double pss_bytes = 0;     ///< Mean of the memory.
   double written_bytes = 0; ///< To disks.
   std::vector<peer_traffic> peers;
+  double builds_sent_bytes = 0;     ///< Of builds that other nodes fetched.
+  double builds_received_bytes = 0; ///< Of builds that it fetched.
 
   static constexpr auto fields() {
-    return field_list{required("window", &cost_window::window),
-                      required("span_s", &cost_window::span_s),
-                      required("cpu_s", &cost_window::cpu_s),
-                      required("pss_bytes", &cost_window::pss_bytes),
-                      required("written_bytes", &cost_window::written_bytes),
-                      required("peers", &cost_window::peers)};
+    return field_list{
+        required("window", &cost_window::window),
+        required("span_s", &cost_window::span_s),
+        required("cpu_s", &cost_window::cpu_s),
+        required("pss_bytes", &cost_window::pss_bytes),
+        required("written_bytes", &cost_window::written_bytes),
+        required("peers", &cost_window::peers),
+        optional("builds_sent_bytes", &cost_window::builds_sent_bytes),
+        optional("builds_received_bytes", &cost_window::builds_received_bytes)};
   }
 };
 

@@ -16,9 +16,11 @@ using row = std::pair<Rule, std::string_view>;
 /// A definition of schemas/common.schema.json, or a schema.
 constexpr row<std::string_view> value_rules[] = {
     {"address", " address discovery_server remote "},
+    {"architecture", " architecture "},
     {"counter", " count epoch id incarnation size "},
     {"domain_id", " domain_id "},
-    {"hex_digits", " nonce proof "},
+    {"hash", " hash "},
+    {"hex_digits", " build_key nonce proof "},
     {"instance_id", " instance instances reserved "},
     {"name", " cell coordinator name node nodes step target task "},
     {"node_state", " state "},
@@ -33,6 +35,14 @@ constexpr row<std::string_view> value_rules[] = {
     {R"({"description": "a session id: 16 hexadecimal digits, small letters",
          "type": "string", "maxLength": 16, "pattern": "^[0-9a-f]{16}$"})",
      " session "},
+    {R"({"description": "an image: 1 to 512 characters without spaces",
+         "type": "string", "maxLength": 512, "pattern": "^[!-~]{1,512}$"})",
+     " image "},
+    {R"({"description": "a SHA-256 as container engines write it",
+         "type": "string", "maxLength": 71,
+         "pattern": "^sha256:[0-9a-f]{64}$"})",
+     " image_id layers "},
+    {R"({"type": "integer", "minimum": 0, "maximum": 17179869184})", " bytes "},
     // Any message, which is checked against its own schema.
     {R"({"type": "object", "required": ["type"], "properties":
          {"type": {"type": "string", "minLength": 1, "maxLength": 64}}})",
@@ -44,6 +54,7 @@ constexpr row<size_t> list_rules[] = {
     {0, " target "},
     {1, " discovery spec "},
     {128, " refused specs "},
+    {512, " layers "},
     {1024, " refused_skills skills "},
     {10000, " changed gone instances members nodes reserved waiting "},
     {20000, " verdicts "},

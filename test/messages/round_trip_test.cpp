@@ -52,7 +52,8 @@ void check_valid(const std::string& schema, const json& document) {
 bool has_least_form(const std::string& name) {
   return name != "task_request" && name != "task_plan_query"
          && name != "skill_descriptor" && name != "plan_document"
-         && name != "cell_formation";
+         && name != "cell_formation" && name != "skill_added"
+         && name != "skill_pulled";
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "messages/allocation_report.hpp"
 #include "messages/cell.hpp"
 #include "messages/event.hpp"
+#include "messages/image.hpp"
 #include "messages/insight/examination.hpp"
 #include "messages/insight/node_cost.hpp"
 #include "messages/insight/reach.hpp"
@@ -101,10 +102,16 @@ std::vector<trial> message_trials() {
   try_messages<cell_standing, cell_changed, place_request, place_granted,
                place_reservation, place_reserved, member_surrender,
                members_surrendered>(result);
+  try_messages<skill_addition, skill_added, skill_removal, skill_removed,
+               skill_pull, skill_pulled, build_keeping, build_kept,
+               build_release, build_released>(result);
+  try_messages<image_request, image_offered, image_query, image_known,
+               image_sharing, image_shared>(result);
   try_messages<session_hello, session_challenge, session_proof,
                session_accepted>(result);
   result.push_back(try_part<skill_descriptor>("skill_descriptor"));
   result.push_back(try_part<plan_document>("plan_document"));
+  result.push_back(try_part<build_manifest>("build_manifest"));
   return result;
 }
 
