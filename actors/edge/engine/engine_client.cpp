@@ -1,9 +1,8 @@
 #include "actors/edge/engine/engine_client.hpp"
 
+#include "actors/edge/engine/engine_json.hpp"
 #include "actors/edge/engine/limits.hpp"
 #include "schemas/utf8.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <array>
 #include <cerrno>
@@ -14,11 +13,13 @@ namespace roscell {
 
 namespace {
 
-http_call to_call(const std::string& socket, engine_request what) {
+http_call to_call(const std::string& socket, const std::string& prefix,
+                  engine_request what) {
   http_call result;
   result.to.socket_path = socket;
   result.method = std::move(what.method);
-  result.target = std::move(what.target);
+  result.target = prefix + what.target;
+  result.headers = std::move(what.headers);
   result.body = std::move(what.body);
   result.file = std::move(what.file);
   result.timeout = what.limit;
@@ -82,22 +83,25 @@ end_of_call(const std::string& socket, const engine_request& what,
 
 } // namespace
 
-engine_client::engine_client(std::shared_ptr<io_core> core, std::string socket)
-    : core_(std::move(core)), socket_(std::move(socket)) {
+engine_client::engine_client(std::shared_ptr<io_core> core, std::string socket,
+                             std::string api)
+    : core_(std::move(core)), socket_(std::move(socket)),
+      prefix_(api.empty() ? "" : "/v" + api) {
   // nop
 }
 
 void engine_client::request(
     engine_request what, std::function<void(engine_answer)> on_answer) const {
   auto on_end = end_of_call(socket_, what, std::move(on_answer));
-  call_http(core_, to_call(socket_, std::move(what)), std::move(on_end));
+  call_http(core_, to_call(socket_, prefix_, std::move(what)),
+            std::move(on_end));
 }
 
 engine_stream engine_client::stream(engine_request what,
                                     engine_stream_callbacks calls) const {
   auto on_end = end_of_call(socket_, what, std::move(calls.on_end));
   return subscribe_http(
-      core_, to_call(socket_, std::move(what)),
+      core_, to_call(socket_, prefix_, std::move(what)),
       {std::move(calls.on_open), std::move(calls.on_bytes), std::move(on_end)});
 }
 
@@ -105,18 +109,12 @@ namespace {
 
 using json = nlohmann::json;
 
-std::string text_of(const json& document, const char* name) {
-  const auto i = document.find(name);
-  return i != document.end() && i->is_string() ? i->get<std::string>()
-                                               : std::string{};
-}
-
 std::string message_in(const std::string& body) {
   const auto document = json::parse(body, nullptr, false);
   if (!document.is_object())
     return body;
-  auto result = text_of(document, "message");
-  const auto cause = text_of(document, "cause");
+  auto result = text_in(document, "message");
+  const auto cause = text_in(document, "cause");
   if (!cause.empty() && result.find(cause) == std::string::npos)
     result += (result.empty() ? "" : ": ") + cause;
   return result;
@@ -133,7 +131,11 @@ std::string shortened(const std::string& text) {
 
 /// What helps against what an engine complains of: a part of its words, and the
 /// remedy.
-constexpr std::array<std::pair<const char*, const char*>, 3> remedies{{
+constexpr std::array<std::pair<const char*, const char*>, 4> remedies{{
+    {"client version",
+     "another version of the engine was installed while the node ran: start "
+     "the node anew (systemctl restart roscell), so that they agree on one of "
+     "its API"},
     {"no space left",
      "free space on the engine's disk: docker system df (podman system df)"},
     {"could not select device driver",

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -13,14 +14,15 @@
 namespace roscell {
 
 /// What Podman's own API begins with, at its version. All that Docker's API
-/// has, too, is asked without a version, and answered in the engine's own one.
+/// has, too, Podman is asked without a version.
 inline constexpr const char* podman_api = "/v4.0.0/libpod";
 
 /// One request to a container engine.
 struct engine_request {
   std::string method = "GET";
-  std::string target;         ///< Path and query, percent-encoded.
-  std::string body;           ///< JSON; empty: none.
+  std::string target; ///< Path and query, percent-encoded.
+  std::map<std::string, std::string> headers; ///< Besides the usual ones.
+  std::string body;                           ///< JSON; empty: none.
   std::filesystem::path file; ///< A tar file to be sent in place of `body`.
   /// From connecting to the last byte of the answer.
   std::chrono::milliseconds limit = limits::engine::call;
@@ -60,7 +62,10 @@ using engine_stream = http_subscription;
 /// from any thread.
 class engine_client {
 public:
-  engine_client(std::shared_ptr<io_core> core, std::string socket);
+  /// @param api the version of Docker's API that is spoken, "1.41"; empty:
+  ///   whatever the engine itself takes.
+  engine_client(std::shared_ptr<io_core> core, std::string socket,
+                std::string api = {});
 
   /// Calls `on_answer` once, on the io thread.
   void request(engine_request what,
@@ -76,6 +81,7 @@ public:
 private:
   std::shared_ptr<io_core> core_;
   std::string socket_;
+  std::string prefix_; ///< Of all paths.
 };
 
 /// What a reply that is not good says, in the engine's own words: Docker's

@@ -1,5 +1,6 @@
 #include "actors/edge/engine/engine_search.hpp"
 
+#include "actors/edge/engine/engine_api.hpp"
 #include "actors/edge/engine/engine_client.hpp"
 #include "actors/edge/engine/limits.hpp"
 #include "actors/edge/http/client/http_client.hpp"
@@ -80,11 +81,11 @@ edge_result<http_reply> ask(const std::string& socket,
   return std::get<http_reply>(std::move(answer));
 }
 
-/// The version that Docker tells; empty: it is no engine.
-std::string version_in(const http_reply& reply) {
+/// A version that Docker tells of; empty: it does not.
+std::string version_in(const http_reply& reply, const char* name) {
   const auto document = nlohmann::json::parse(reply.body, nullptr, false);
   const auto version =
-      document.is_object() ? document.find("Version") : document.end();
+      document.is_object() ? document.find(name) : document.end();
   return reply.status == 200 && version != document.end()
                  && version->is_string()
              ? version->get<std::string>().substr(0, max_version_bytes)
@@ -120,7 +121,7 @@ std::vector<std::string> engine_sockets(const std::string& name) {
 edge_result<found_engine> ask_for_engine(const std::string& socket) {
   if (const int error = try_to_connect(socket); error != 0)
     return no_engine(socket, error);
-  found_engine result{socket, "podman", {}, is_of_a_user(socket)};
+  found_engine result{socket, "podman", {}, {}, is_of_a_user(socket)};
   auto answer = ask(socket, "/libpod/_ping");
   // Podman's version is not worth asking: it looks for the packages of all of
   // its parts, which takes a loaded host 10 s.
@@ -132,7 +133,10 @@ edge_result<found_engine> ask_for_engine(const std::string& socket) {
   if (auto* why = std::get_if<edge_error>(&answer))
     return *why;
   result.name = "docker";
-  result.version = version_in(std::get<http_reply>(answer));
+  const auto& said = std::get<http_reply>(answer);
+  result.version = version_in(said, "Version");
+  result.api = choose_api(version_in(said, "ApiVersion"),
+                          version_in(said, "MinAPIVersion"));
   if (result.version.empty())
     return edge_error{error_code::engine_failed,
                       "no container engine answers on '" + socket + "'",

@@ -12,6 +12,7 @@ struct found_engine {
   std::string socket;
   std::string name;    ///< "docker" or "podman".
   std::string version; ///< "20.10.24"; of Docker only.
+  std::string api;     ///< The version of its API to speak; the same.
   /// It runs without root: root in its containers is the user that it runs as.
   bool rootless = false;
 };
