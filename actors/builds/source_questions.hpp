@@ -1,0 +1,15 @@
+#pragma once
+
+#include "actors/builds/build_fetcher.hpp"
+#include "actors/edge/io/io_core.hpp"
+
+#include <memory>
+
+namespace roscell {
+
+/// Asks sources of builds by HTTP; answers come as `source_answered`.
+/// @param from the node's own address, for which its permits are.
+std::function<void(const build_fetcher_actor&, const source_question&)>
+source_asker(std::shared_ptr<io_core> io, std::string from);
+
+} // namespace roscell

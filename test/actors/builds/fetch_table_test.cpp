@@ -1,0 +1,167 @@
+#include "actors/builds/fetch_table.hpp"
+
+#include "actors/builds/limits.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace roscell;
+
+namespace {
+
+constexpr size_t pieces = 20;
+
+std::vector<bool> all() {
+  return std::vector<bool>(pieces, true);
+}
+
+std::vector<bool> only(const std::set<size_t>& which) {
+  std::vector<bool> result(pieces, false);
+  for (const auto i : which)
+    result[i] = true;
+  return result;
+}
+
+fetch_table table_with(const std::vector<std::string>& sources,
+                       uint64_t seed = 1) {
+  fetch_table result{std::vector<bool>(pieces, false), seed};
+  for (const auto& x : sources) {
+    result.add_source(x);
+    result.announce(x, all());
+  }
+  return result;
+}
+
+/// Answers all that is asked until nothing more is.
+size_t fetch_all(fetch_table& table) {
+  size_t questions = 0;
+  for (auto asked = table.next(); !asked.empty(); asked = table.next())
+    for (const auto& x : asked) {
+      table.take(x);
+      ++questions;
+    }
+  return questions;
+}
+
+} // namespace
+
+TEST_CASE("a build comes whole from several sources at once", "[builds]") {
+  auto table = table_with({"a", "b", "c"});
+  CHECK(table.next().size() == 3 * limits::build::questions_of_source);
+  auto fresh = table_with({"a", "b", "c"});
+  // The last ones may be asked of two.
+  CHECK(fetch_all(fresh) < pieces + 3 * limits::build::questions_of_source);
+  CHECK(fresh.complete());
+  CHECK(fresh.given().size() == 3);
+}
+
+TEST_CASE("what is here already is not asked for", "[builds]") {
+  fetch_table table{only({0, 1, 2, 3, 4}), 1};
+  table.add_source("a");
+  table.announce("a", all());
+  CHECK(fetch_all(table) == pieces - 5);
+  CHECK(table.complete());
+}
+
+TEST_CASE("nothing is asked of a source that has not said what it has",
+          "[builds]") {
+  fetch_table table{std::vector<bool>(pieces, false), 1};
+  table.add_source("a");
+  CHECK(table.next().empty());
+  CHECK_FALSE(table.stranded());
+  table.announce("a", only({3}));
+  const auto asked = table.next();
+  REQUIRE(asked.size() == 1);
+  CHECK(asked[0].piece == 3);
+}
+
+TEST_CASE("what few have is asked for first", "[builds]") {
+  fetch_table table{std::vector<bool>(pieces, false), 1};
+  for (const auto* x : {"a", "b"})
+    table.add_source(x);
+  table.announce("a", all());
+  auto most = all();
+  most[7] = most[11] = false;
+  table.announce("b", most);
+  std::set<size_t> of_a;
+  for (const auto& x : table.next())
+    if (x.source == "a")
+      of_a.insert(x.piece);
+  CHECK(of_a == std::set<size_t>{7, 11});
+}
+
+TEST_CASE("nodes that begin together begin with other pieces", "[builds]") {
+  std::set<size_t> first;
+  for (uint64_t seed = 0; seed < 10; ++seed)
+    first.insert(table_with({"a"}, seed).next().front().piece);
+  CHECK(first.size() > 4);
+}
+
+TEST_CASE("a source that lies is asked no more and the others give the rest",
+          "[builds]") {
+  auto table = table_with({"honest", "liar"});
+  for (const auto& x : table.next())
+    if (x.source == "liar") {
+      table.blame(x, "other bytes");
+      break;
+    }
+  REQUIRE(table.lost().size() == 1);
+  CHECK(table.lost()[0].source == "liar");
+  for (const auto& x : table.next())
+    CHECK(x.source == "honest");
+}
+
+TEST_CASE("a source is asked again until it has failed often in a row",
+          "[builds]") {
+  auto table = table_with({"a"});
+  for (int i = 1; i < limits::build::failures_in_a_row; ++i)
+    table.fail(table.next().front(), "timeout");
+  CHECK(table.lost().empty());
+  SECTION("a piece in between counts it anew") {
+    table.take(table.next().front());
+    table.fail(table.next().front(), "timeout");
+    CHECK(table.lost().empty());
+  }
+  SECTION("one more is too many") {
+    table.fail(table.next().front(), "timeout");
+    CHECK(table.lost().size() == 1);
+    CHECK(table.stranded());
+  }
+}
+
+TEST_CASE("the last pieces are asked of a second source where one is slow",
+          "[builds]") {
+  fetch_table table{only({}), 1};
+  for (const auto* x : {"slow", "fast"}) {
+    table.add_source(x);
+    table.announce(x, all());
+  }
+  std::set<size_t> slow;
+  for (auto asked = table.next(); !asked.empty(); asked = table.next())
+    for (const auto& x : asked) {
+      if (x.source == "slow" && slow.insert(x.piece).second)
+        continue;
+      table.take(x);
+    }
+  CHECK(table.complete());
+}
+
+TEST_CASE("a piece that comes twice counts once", "[builds]") {
+  auto table = table_with({"a"});
+  const auto asked = table.next().front();
+  CHECK(table.take(asked));
+  CHECK_FALSE(table.take(asked));
+  CHECK(table.pieces_here() == 1);
+}
+
+TEST_CASE("a source that tells of another number of pieces is lost",
+          "[builds]") {
+  fetch_table table{std::vector<bool>(pieces, false), 1};
+  table.add_source("a");
+  const size_t wrong = GENERATE(size_t{0}, pieces - 1, pieces + 1);
+  table.announce("a", std::vector<bool>(wrong, true));
+  CHECK(table.stranded());
+}
