@@ -5,8 +5,11 @@
 #include "actors/cell/cell_peers.hpp"
 #include "actors/cell/cell_questions.hpp"
 #include "actors/cell/cell_slots.hpp"
+#include "actors/cell/image_offers.hpp"
 #include "actors/cell/moves/abandoned_steps.hpp"
 #include "actors/cell/moves/task_move.hpp"
+#include "actors/cell/skill_additions.hpp"
+#include "actors/cell/state/build_offers.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/may_start.hpp"
@@ -49,7 +52,8 @@ cell_list cells_seen(const cell_coordinator_state& st) {
 
 skill_list list_skills(const cell_coordinator_state& st,
                        const skill_query& query) {
-  return {st.registry.skills(query.operation), st.registry.refused_skills()};
+  return {st.registry.skills(query.operation), st.registry.refused_skills(),
+          describe_builds(st, query.operation)};
 }
 
 void on_status_reported(coordinator_pointer self,
@@ -147,6 +151,7 @@ void begin(coordinator_pointer self, const actor_context& context,
   restore_members(self);
   restore_transfers(self);
   restore_tasks(self);
+  restore_builds(self);
   restore_places(self, self->state.setup.tasks);
   restore_orders(self);
   self->state.history.restore(self->state.setup.history);
@@ -172,17 +177,13 @@ cell_coordinator(coordinator_pointer self, const actor_context& context,
       [self](const register_node& x) { return register_member(self, x); },
       [self](const depart_node& x) { return depart_member(self, x); },
       [self](const member_lost& x) { on_member_lost(self, x); },
-      [self](const member_skills_changed& x) {
-        on_member_skills_changed(self, x);
-      },
+      [self](const member_skills_changed& x) { on_skills_changed(self, x); },
       [self](const skills_changed& x) { on_own_skills_changed(self, x); },
       [self](const instance_changed& x) { on_instance_changed(self, x); },
       [self](const cell_query&) { return describe(self); },
       [self](const cell_list_query&) { return cells_seen(self->state); },
       [self](const topic_query& x) { return list_topics(self, x); },
-      [self](const task_history_query& x) {
-        return report_history(self->state, x);
-      },
+      [self](const task_history_query& x) { return report_history(self, x); },
       [self](const task_query& x) { return describe_tasks(self->state, x); },
       [self](const instance_query& x) {
         return describe_instances_now(self, x);
@@ -190,6 +191,10 @@ cell_coordinator(coordinator_pointer self, const actor_context& context,
       [self](const log_query& x) { return fetch_log(self, x); },
       [self](const kept_logs_query& x) { return collect_kept_logs(self, x); },
       [self](const skill_query& x) { return list_skills(self->state, x); },
+      [self](const skill_addition& x) { return add_skill(self, x); },
+      [self](const skill_removal& x) { return remove_skill(self, x); },
+      [self](const skill_pull& x) { return pull_skill(self, x); },
+      [self](const image_request& x) { return offer_image(self, x); },
       [self](const claim_task& x) { return claim_placement_lock(self, x); },
       [self](const collect_resources&) { return answer_resources(self); },
       [self](const collect_metrics&) { return collect_all_metrics(self); },

@@ -2,6 +2,8 @@
 
 #include "actors/cell/limits.hpp"
 #include "actors/cell/moves/abandoned_steps.hpp"
+#include "actors/cell/skill_additions.hpp"
+#include "actors/cell/state/build_offers.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/member_presence.hpp"
@@ -49,6 +51,8 @@ registry_entry entry_of(const cell_coordinator_state& st,
   result.agent = request.member;
   result.member = request.member;
   result.origin = node.origin;
+  result.fetches_builds = node.fetches_builds;
+  result.build_key = node.fetches_builds ? new_build_key() : std::string{};
   return result;
 }
 
@@ -114,7 +118,8 @@ void on_registration_persisted(coordinator_pointer self,
   promise.deliver(
       node_registered{st.setup.cell, st.setup.self.name, st.setup.incarnation,
                       take_up_instances(self, node), st.setup.cell_uuid,
-                      place_of(st, *entry), true, true});
+                      place_of(st, *entry), true, true, entry->build_key});
+  release_remains(self, who.name);
   settle_arrivals(self, who.uuid, {});
   on_node_returned(self, who.uuid);
 }
@@ -191,6 +196,8 @@ void add_own_row(coordinator_pointer self) {
   own.skills = st.setup.skills;
   own.refused_skills = st.setup.refused_skills;
   own.agent = st.setup.agent;
+  own.fetches_builds = static_cast<bool>(st.setup.keeper);
+  own.build_key = st.setup.build_key;
   st.registry.activate(std::move(own), now_of(self));
 }
 

@@ -25,8 +25,8 @@ void restore_members(coordinator_pointer self);
 
 /// A node has other skills. What is placed from then on is placed by them; what
 /// runs goes on.
-void on_member_skills_changed(coordinator_pointer self,
-                              const member_skills_changed& event);
+void on_skills_changed(coordinator_pointer self,
+                       const member_skills_changed& event);
 
 /// The same of the coordinator's own node.
 void on_own_skills_changed(coordinator_pointer self, const skills_changed& now);

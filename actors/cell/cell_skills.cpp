@@ -35,8 +35,8 @@ void take_skills(coordinator_pointer self, registry_entry& entry,
 
 } // namespace
 
-void on_member_skills_changed(coordinator_pointer self,
-                              const member_skills_changed& event) {
+void on_skills_changed(coordinator_pointer self,
+                       const member_skills_changed& event) {
   auto& st = self->state;
   auto* entry = st.registry.find_member(event.uuid, event.member);
   if (!entry)

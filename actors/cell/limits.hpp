@@ -136,6 +136,17 @@ constexpr size_t overdue_removals = 1000;
 
 } // namespace task
 
+namespace build {
+
+/// Builds that are the cell's.
+constexpr size_t of_cell = 1000;
+/// Builds that were removed, of which nodes that are away may have copies.
+constexpr size_t remains = 1000;
+/// Nodes that are asked one after the other to hold the second copy.
+constexpr size_t keepers_tried = 5;
+
+} // namespace build
+
 /// Moving a node from one cell to another.
 namespace transfer {
 

@@ -254,7 +254,9 @@ private:
       result.push_back({x.row->skill.hash,
                         std::move(x.model),
                         {},
-                        x.row->skill.descriptor.safe_state});
+                        x.row->skill.descriptor.safe_state,
+                        x.row->lacking,
+                        x.row->bytes});
     for (const auto& [node, choice] : newest)
       result[choice.second].nodes.push_back(node);
     if (!newest.empty())

@@ -1,5 +1,6 @@
 #include "actors/cell/moves/moved_steps.hpp"
 
+#include "actors/cell/state/build_offers.hpp"
 #include "actors/cell/state/may_start.hpp"
 #include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/step_ends.hpp"
@@ -137,7 +138,8 @@ void start_new(coordinator_pointer self, const move_ptr& move, size_t i) {
                      {error_code::conflict, "too many instances are known"});
   enter(self, move, i, move_stage::starting);
   const auto longest = st.moves.deadline_of(move->id, i) - self->clock().now();
-  self->request(entry->agent, longest, instance_deployment{spec})
+  self->request(entry->agent, longest,
+                instance_deployment{spec, offer_for(st, spec.skill, node)})
       .then(
           [self, move, i](const instance_deployed&) {
             enter(self, move, i, move_stage::up);

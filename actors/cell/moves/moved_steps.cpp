@@ -1,5 +1,6 @@
 #include "actors/cell/moves/moved_steps.hpp"
 
+#include "actors/cell/state/build_offers.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/may_start.hpp"
@@ -45,8 +46,7 @@ std::optional<task_step> step_of(const task_request& request,
 
 std::variant<std::vector<resolved_step>, failure>
 resolve(const cell_coordinator_state& st, const task_step& step) {
-  return resolve_steps({step},
-                       {st.registry.skills(""), st.registry.refused_skills()});
+  return resolve_steps({step}, skills_within_reach(st));
 }
 
 } // namespace

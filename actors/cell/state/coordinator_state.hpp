@@ -2,9 +2,11 @@
 
 #include "actors/cell/moves/move_table.hpp"
 #include "actors/cell/streams/stream_watch.hpp"
+#include "actors/cell/tables/cell_builds.hpp"
 #include "actors/cell/tables/cell_registry.hpp"
 #include "actors/cell/tables/deployment_table.hpp"
 #include "actors/cell/tables/history_table.hpp"
+#include "actors/cell/tables/image_sources.hpp"
 #include "actors/cell/tables/node_failures.hpp"
 #include "actors/cell/tables/ordered_ends.hpp"
 #include "actors/cell/tables/peer_table.hpp"
@@ -40,7 +42,9 @@ struct coordinator_setup {
   node_identity self; ///< Of the coordination node itself.
   std::vector<installed_skill> skills;
   std::vector<skill_problem> refused_skills;
-  node_agent_actor agent; ///< Of the coordination node itself.
+  node_agent_actor agent;    ///< Of the coordination node itself.
+  build_keeper_actor keeper; ///< The same; may be invalid in tests.
+  std::string build_key;     ///< What permits for its builds are signed with.
   /// Runs what an earlier run of the node has left; may be invalid in tests.
   container_supervisor_actor supervisor;
   state_store_actor store;
@@ -49,6 +53,8 @@ struct coordinator_setup {
   std::vector<transfer_row> transfers; ///< The same.
   std::vector<history_record> history; ///< The same.
   std::vector<drain_record> drains;    ///< The same.
+  std::vector<cell_build> builds;      ///< The same.
+  std::vector<build_remains> remains;  ///< The same.
   /// What instances of this cell find in their environment.
   std::map<std::string, std::string> environment;
   /// Towards other coordinators and nodes in no cell; all invalid in a cell
@@ -76,6 +82,8 @@ struct cell_coordinator_state {
   cell_registry registry;
   task_table tasks;
   deployment_table deployments;
+  cell_builds builds;
+  image_readers images;
   stream_watch streams;
   pending_operations pending;
   history_table history;

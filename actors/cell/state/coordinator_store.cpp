@@ -154,9 +154,9 @@ void write_due_events(coordinator_pointer self) {
     write_events(self);
 }
 
-caf::result<task_history> report_history(const cell_coordinator_state& st,
+caf::result<task_history> report_history(coordinator_pointer self,
                                          const task_history_query& query) {
-  if (auto known = st.history.find(query.task))
+  if (auto known = self->state.history.find(query.task))
     return std::move(*known);
   return fail(error_code::unknown_task,
               "nothing is known of a task '" + query.task + "'", "/task",

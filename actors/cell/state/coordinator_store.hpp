@@ -54,7 +54,7 @@ void publish_repeated_event(coordinator_pointer self, const event_kind& what,
 void write_due_events(coordinator_pointer self);
 
 /// Errors: unknown_task.
-caf::result<task_history> report_history(const cell_coordinator_state& st,
+caf::result<task_history> report_history(coordinator_pointer self,
                                          const task_history_query& query);
 
 } // namespace roscell

@@ -31,6 +31,8 @@ struct registry_entry {
   join_origin origin = join_origin::given;
   int64_t server_id = -1; ///< Of its discovery server; negative: none.
   std::chrono::steady_clock::time_point held_until; ///< Reserved rows.
+  bool fetches_builds = false; ///< It can get skills from other nodes.
+  std::string build_key;       ///< What permits for its builds are signed with.
 };
 
 /// What of a row outlives the coordinator's process.

@@ -1,5 +1,6 @@
 #include "actors/cell/tasks/cell_tasks.hpp"
 
+#include "actors/cell/state/build_offers.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/may_start.hpp"
@@ -154,6 +155,7 @@ caf::result<intent_recorded> hold_placement(coordinator_pointer self,
     // From here on the pipeline may start them at any time.
     for (size_t i = 0; i < reply.specs.size(); ++i)
       note_start(self, reply.specs[i], intent.nodes[i]);
+    reply.offers = offers_for(self->state, reply.specs, intent.nodes);
     release_placement_lock(
         self, self->state.pending.waiters[intent.task].placement_lock);
     promise.deliver(std::move(reply));

@@ -1,6 +1,7 @@
 #include "actors/cell/tasks/placement_locks.hpp"
 
 #include "actors/cell/limits.hpp"
+#include "actors/cell/state/build_offers.hpp"
 #include "actors/cell/streams/stream_watch.hpp"
 #include "actors/placement/reservation.hpp"
 
@@ -91,7 +92,7 @@ void complete_tally(coordinator_pointer self, resource_tally& tally) {
   const auto& st = self->state;
   cell_resources result;
   result.cell = st.setup.cell;
-  result.skills = {st.registry.skills(""), st.registry.refused_skills()};
+  result.skills = skills_within_reach(st);
   result.written = written_in(st);
   result.evictable = evictable_in(st);
   if (st.setup.graph)

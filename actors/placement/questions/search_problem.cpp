@@ -90,6 +90,33 @@ size_t node_position(const std::vector<node_resources>& nodes,
   return position(nodes, name, [](const auto& x) { return x.name; });
 }
 
+int64_t bytes_to_fetch(const resolved_step& step, const std::string& build,
+                       const std::string& node) {
+  for (const auto& x : step.builds)
+    if (x.hash == build)
+      return std::count(x.lacking.begin(), x.lacking.end(), node) * x.bytes;
+  return 0;
+}
+
+std::vector<node_resources>
+in_order_of_fetching(std::vector<node_resources> nodes,
+                     const std::vector<resolved_step>& steps) {
+  std::map<std::string, int64_t> bytes;
+  for (const auto& step : steps)
+    for (const auto& build : step.builds)
+      for (const auto& node : build.lacking)
+        if (std::find(build.nodes.begin(), build.nodes.end(), node)
+            != build.nodes.end())
+          bytes[node] += build.bytes;
+  const auto of = [&](const node_resources& x) {
+    const auto found = bytes.find(x.name);
+    return found == bytes.end() ? 0 : found->second;
+  };
+  std::stable_sort(nodes.begin(), nodes.end(),
+                   [&](const auto& a, const auto& b) { return of(a) < of(b); });
+  return nodes;
+}
+
 std::vector<step_ways> ways_of(const std::vector<resolved_step>& steps) {
   return {steps.begin(), steps.end()};
 }

@@ -63,6 +63,16 @@ size_t step_position(const std::vector<resolved_step>& steps,
 size_t node_position(const std::vector<node_resources>& nodes,
                      const std::string& name);
 
+/// What a node has to fetch before it runs a build of a step.
+int64_t bytes_to_fetch(const resolved_step& step, const std::string& build,
+                       const std::string& node);
+
+/// The nodes that have to fetch the least come first, so that of allocations
+/// that are as good as each other one is taken that starts soon.
+std::vector<node_resources>
+in_order_of_fetching(std::vector<node_resources> nodes,
+                     const std::vector<resolved_step>& steps);
+
 std::vector<step_ways> ways_of(const std::vector<resolved_step>& steps);
 
 /// Excluded from it is only what nodes do not grant.

@@ -44,6 +44,8 @@ allocation::problem make_problem(const allocate_task& asked,
   return result;
 }
 
+constexpr double bytes_of_mib = 1024 * 1024;
+
 /// Puts names where the search speaks of positions.
 class plan_writer {
 public:
@@ -119,7 +121,10 @@ private:
              x.shares.gpu_memory.value_or(-1)},
             x.variance,
             x.bonus,
-            ways.build(x.deployment, node)};
+            ways.build(x.deployment, node),
+            static_cast<double>(bytes_to_fetch(
+                step(x.step), ways.build(x.deployment, node), node))
+                / bytes_of_mib};
   }
 
   const allocate_task& asked_;
@@ -188,8 +193,10 @@ failure refusal(const allocate_task& asked, const std::vector<step_ways>& ways,
 } // namespace
 
 std::variant<task_plan, failure>
-allocate(const allocate_task& asked, std::chrono::milliseconds budget,
+allocate(const allocate_task& question, std::chrono::milliseconds budget,
          const std::function<bool()>& cancelled) {
+  auto asked = question;
+  asked.nodes = in_order_of_fetching(std::move(asked.nodes), asked.steps);
   const auto why = step_position(asked.steps, asked.why);
   if (!asked.why.empty() && why == asked.steps.size())
     return failure{error_code::schema_violation,

@@ -17,9 +17,9 @@ void accept(fake_site* site, const session_admitted& event) {
 }
 
 node_registered answer_of(const fake_coordinator& base) {
-  return {base.cell,     base.name,        base.incarnation,
-          base.verdicts, base.cell_uuid,   base.discovery,
-          false,         base.hears_skills};
+  return {base.cell,     base.name,         base.incarnation,
+          base.verdicts, base.cell_uuid,    base.discovery,
+          false,         base.hears_skills, base.build_key};
 }
 
 caf::result<node_registered> enter(fake_site* site, const register_node& x) {
@@ -79,6 +79,16 @@ caf::behavior coordinator(caf::event_based_actor* self, fake_site* site) {
       [=](const member_lost& event) { lose(site, event); },
       [=](const instance_changed& x) { site->base.changes.push_back(x); },
       [=](const member_skills_changed& x) { site->base.skills.push_back(x); },
+      [=](const image_request& x) {
+        site->base.image_requests.push_back(x);
+        image_offered offer;
+        offer.image_id = "sha256:" + std::string(64, 'b');
+        offer.node = "arm-2";
+        offer.cell = site->base.cell;
+        const std::string hash(64, 'c');
+        offer.offer.build = {hash, hash, 7};
+        return offer;
+      },
       [=](const route_request& x) {
         site->base.asked.push_back(json::parse(x.text));
         return request_routed{site->base.answer.dump(), ""};

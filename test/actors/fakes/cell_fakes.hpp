@@ -46,6 +46,8 @@ struct fake_coordinator {
   std::vector<instance_changed> changes;
   std::vector<member_skills_changed> skills; ///< As members have told.
   bool hears_skills = true; ///< Else it is of an earlier version.
+  std::string build_key = std::string(64, 'a'); ///< The same where empty.
+  std::vector<image_request> image_requests;
   std::vector<member_lost> losses;
   std::optional<failure> refusal; ///< Of registrations.
   bool mute = false;              ///< Does not answer registrations.

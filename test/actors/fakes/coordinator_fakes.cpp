@@ -73,6 +73,7 @@ caf::behavior agent(caf::event_based_actor* self, fake_agent* x) {
         return reply;
       },
       [=](const instance_deployment& request) {
+        x->fetches.push_back(request.fetch);
         on_deployment(self, x, request.spec);
       },
       [=](const instance_removal& what) {
@@ -110,6 +111,28 @@ caf::behavior agent(caf::event_based_actor* self, fake_agent* x) {
           if (query.instance.empty() || query.instance == log.instance)
             result.logs.push_back(log);
         return result;
+      },
+      [=](const build_keeping& request) -> caf::result<build_kept> {
+        x->keepings.push_back(request);
+        if (x->gets_nothing)
+          return fail(error_code::unreachable, "no node gives the build");
+        return build_kept{request.offer.build.hash};
+      },
+      [=](const build_release& request) {
+        x->releases.push_back(request.hash);
+        return build_released{request.hash};
+      },
+      [=](const image_query& query) -> caf::result<image_known> {
+        const auto known = x->images.find(query.image);
+        if (x->mute || known == x->images.end())
+          return image_known{};
+        return image_known{known->second, 7};
+      },
+      [=](const image_sharing& request) -> caf::result<image_shared> {
+        x->sharings.push_back(request);
+        if (x->gets_nothing)
+          return fail(error_code::engine_failed, "it cannot be saved");
+        return image_shared{x->shared_build};
       },
       [=](const registration_switch& order) {
         x->orders.push_back(order);
@@ -153,6 +176,25 @@ caf::behavior disk_of(caf::event_based_actor* self, paper_cell* cell) {
       [=](caf::tick_atom) {
         for (auto& [promise, x] : std::exchange(cell->writes, {}))
           write_all(cell, promise, x);
+      },
+  };
+}
+
+/// The keeper of the coordination node's builds.
+caf::behavior builds_of(paper_cell* cell) {
+  return {
+      [=](const describe_build& x) -> caf::result<build_described> {
+        const auto found = cell->kept_builds.find(x.hash);
+        if (found == cell->kept_builds.end())
+          return fail(error_code::schema_violation, "it is no skill");
+        return build_described{{x.hash, x.hash, 7}, found->second};
+      },
+      [=](const pin_build& x) {
+        return build_held{{x.hash, x.hash, 7}, {}, true};
+      },
+      [=](const drop_build& x) {
+        cell->dropped_builds.push_back(x.hash);
+        return build_dropped{};
       },
   };
 }
@@ -280,6 +322,7 @@ paper_cell::paper_cell(const std::vector<task_record>& tasks,
     : base(make_agent("base")) {
   event_collector = time.system.spawn([this] { return keeper(this); });
   store = time.system.spawn(disk_of, this);
+  build_store = time.system.spawn([this] { return builds_of(this); });
   context = time.context;
   context.events = caf::actor_cast<event_log_actor>(event_collector);
   searches = std::make_shared<search_guard>();
@@ -300,6 +343,10 @@ void paper_cell::begin_anew() {
     how.members.push_back(record.get<member_record>());
   for (const auto& [uuid, record] : drains)
     how.drains.push_back(record.get<drain_record>());
+  for (const auto& [hash, record] : builds)
+    how.builds.push_back(record.get<cell_build>());
+  for (const auto& [hash, record] : remains)
+    how.remains.push_back(record.get<build_remains>());
   start_parts(how);
 }
 
@@ -337,6 +384,7 @@ paper_cell::~paper_cell() {
   time.kill(coordinator);
   time.kill(planner);
   time.kill(store);
+  time.kill(build_store);
   time.kill(event_collector);
 }
 
@@ -352,6 +400,8 @@ coordinator_setup paper_cell::setup(const std::vector<task_record>& tasks,
   result.supervisor = caf::actor_cast<container_supervisor_actor>(base.actor);
   result.environment = {{"ROS_DOMAIN_ID", "7"}};
   result.store = caf::actor_cast<state_store_actor>(store);
+  result.keeper = caf::actor_cast<build_keeper_actor>(build_store);
+  result.build_key = "key of base";
   result.searches = searches;
   result.scheduler = planner;
   result.tasks = tasks;
@@ -391,6 +441,7 @@ caf::expected<node_registered> paper_cell::enter(fake_agent& x) {
   registration.incarnation = 3;
   registration.resources = report_of(x).resources;
   registration.skills = x.skills;
+  registration.fetches_builds = x.fetches_builds;
   for (const auto& [id, row] : x.running)
     registration.instances.push_back(row);
   auto reply = time.ask<node_registered>(coordinator,
@@ -441,11 +492,13 @@ json paper_cell::tasks() {
 }
 
 void paper_cell::write(const store_record& x) {
-  auto* table = x.table == "tasks"     ? &disk
-                : x.table == "history" ? &history
-                : x.table == "drains"  ? &drains
-                : x.table == "members" ? &members
-                                       : nullptr;
+  auto* table = x.table == "tasks"            ? &disk
+                : x.table == "history"        ? &history
+                : x.table == "drains"         ? &drains
+                : x.table == "members"        ? &members
+                : x.table == "builds"         ? &builds
+                : x.table == "removed_builds" ? &remains
+                                              : nullptr;
   if (table == nullptr)
     return;
   if (x.value.empty())

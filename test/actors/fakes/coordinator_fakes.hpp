@@ -45,6 +45,14 @@ struct fake_agent {
   bool reports_reserved = false; ///< Its reports count what it has reserved.
   int reluctance = 0; ///< How many reservations it refuses from now on.
   std::vector<instance_spec> deployments;
+  std::vector<build_offer> fetches; ///< Of each deployment.
+  bool fetches_builds = true;       ///< It says so when it registers.
+  bool gets_nothing = false;        ///< No build comes to it.
+  std::vector<build_keeping> keepings;
+  std::map<std::string, std::string> images; ///< Ids by name.
+  std::vector<image_sharing> sharings;
+  build_name shared_build;
+  std::vector<std::string> releases; ///< Hashes.
   std::vector<instance_removal> removals;
   std::vector<registration_switch> orders; ///< To go elsewhere.
   std::vector<std::string> closed;         ///< Reasons of `close_session`.
@@ -92,7 +100,12 @@ struct paper_cell {
   std::map<std::string, json> disk;    ///< Records of the table "tasks".
   std::map<std::string, json> history; ///< The same of that table,
   std::map<std::string, json> drains;  ///< of that one,
-  std::map<std::string, json> members; ///< and of that one.
+  std::map<std::string, json> members; ///< of that one,
+  std::map<std::string, json> builds;  ///< of that one,
+  std::map<std::string, json> remains; ///< and of "removed_builds".
+  /// What the coordination node's keeper says that builds are, by hash.
+  std::map<std::string, installed_skill> kept_builds;
+  std::vector<std::string> dropped_builds; ///< What it was told to drop.
   bool disk_full = false;
   bool slow_disk = false; ///< Writes when told to.
   std::vector<std::pair<caf::response_promise, store_records>> writes;
@@ -100,6 +113,7 @@ struct paper_cell {
   std::vector<std::unique_ptr<fake_agent>> agents;
   caf::actor event_collector;
   caf::actor store;
+  caf::actor build_store;
   actor_context context;
   std::shared_ptr<search_guard> searches;
   scheduler_actor planner;
