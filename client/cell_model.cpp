@@ -209,6 +209,8 @@ const stale_list& stale_answers() {
       {"cell_joined", {"cell", "cells", "skills", "node"}},
       {"cell_left", {"cell", "cells", "node"}},
       {"cell_name_conflict", {"cells"}},
+      {"cell_skill_added", {"skills"}},
+      {"cell_skill_removed", {"skills"}},
       {"cell*", {"cell", "cells"}},
       {"coordinator_lost", {"cell", "node"}},
       {"transfer_*", {"cell", "cells"}},

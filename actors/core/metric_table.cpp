@@ -47,6 +47,14 @@ const std::array<metric_family, metric_count>& metric_families() {
        {"peer"},
        {}},
       {"roscell_store_written_bytes", "Records given to the database.", {}, {}},
+      {"roscell_builds_sent_bytes",
+       "Parts of builds of skills given to who may have them.",
+       {},
+       {}},
+      {"roscell_builds_received_bytes",
+       "Parts of builds of skills fetched from another node.",
+       {"source"},
+       {}},
   }};
   return table;
 }

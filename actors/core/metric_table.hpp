@@ -23,9 +23,11 @@ enum class metric : size_t {
   heartbeats_sent,
   heartbeats_lost,
   store_written_bytes,
+  builds_sent_bytes,
+  builds_received_bytes,
 };
 
-constexpr size_t metric_count = 10;
+constexpr size_t metric_count = 12;
 
 /// A family of samples that differ in their labels.
 struct metric_family {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/builds/build_permits.hpp"
 #include "actors/core/actor_context.hpp"
 #include "actors/core/alarm.hpp"
 #include "actors/core/backoff.hpp"
@@ -16,6 +17,7 @@
 #include <chrono>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,6 +33,8 @@ struct membership_parts {
   container_supervisor_actor supervisor;
   state_store_actor store;
   join_diagnoser_actor diagnoser;
+  build_keeper_actor keeper; ///< Invalid: the node gets no builds from others.
+  std::shared_ptr<build_permits> permits; ///< The same; null.
 };
 
 /// What a membership is told at its start.
@@ -154,6 +158,7 @@ struct membership_status : held_session {
   std::map<std::string, instance_changed> unsent;
   bool skills_unsent = false; ///< They are others since the registration.
   bool skills_heard = false;  ///< The coordinator takes word of them.
+  bool gives_builds = false;  ///< It passes builds and images on.
 
   request_router_actor router; ///< Of this node; invalid while it starts.
   alarm timer;

@@ -79,6 +79,11 @@ void on_registered(self_pointer self, const node_registered& reply) {
                  {"incarnation", st.incarnation},
                  {"epoch", st.config.identity.epoch}});
   acknowledge_ends(self);
+  if (st.parts.permits)
+    st.parts.permits->use_key(reply.build_key);
+  st.gives_builds = !reply.build_key.empty();
+  if (st.parts.keeper)
+    self->send(st.parts.keeper, belong_to_cell{reply.cell});
   serve_programs_of(self, reply);
   prove_contact(self, reply);
   apply(self, reply.verdicts);
@@ -104,6 +109,7 @@ node_registration registration_of(const membership_status& st) {
     result.server_cell = st.programs->cell_uuid;
   }
   result.tells_anew = true;
+  result.fetches_builds = static_cast<bool>(st.parts.keeper);
   if (st.switching)
     result.transfer = st.switching->order.transfer;
   else if (st.state == node_state::orphaned)

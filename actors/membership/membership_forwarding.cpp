@@ -1,3 +1,4 @@
+#include "actors/builds/limits.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/membership/membership_steps.hpp"
@@ -94,6 +95,32 @@ caf::result<request_routed> pass_on(self_pointer self,
                  [self, promise](const caf::expected<json>& reply) {
                    deliver(self->state, reply, promise);
                  });
+  set_timer(self);
+  return promise;
+}
+
+caf::result<image_offered> ask_for_image(self_pointer self,
+                                         image_request request) {
+  auto& st = self->state;
+  if (st.phase != phase::joined)
+    return to_error(no_coordinator(st, image_request::type));
+  if (!st.gives_builds)
+    return fail(error_code::conflict,
+                "the coordinator of cell '" + st.cell
+                    + "' is of a version that passes no images on");
+  request.node = st.config.identity.name;
+  auto promise = self->make_response_promise<image_offered>();
+  st.frames.call(
+      message_json(request), self->clock().now() + limits::image::offer_session,
+      [promise](caf::expected<json> reply) mutable {
+        auto offer =
+            reply ? reply_as<image_offered>(*reply)
+                  : caf::expected<image_offered>{std::move(reply.error())};
+        if (offer)
+          promise.deliver(std::move(*offer));
+        else
+          promise.deliver(std::move(offer.error()));
+      });
   set_timer(self);
   return promise;
 }

@@ -1,3 +1,4 @@
+#include "actors/builds/limits.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "actors/core/clocks.hpp"
 #include "actors/edge/session/limits.hpp"
@@ -104,6 +105,18 @@ void on_request(self_pointer self, const session_inquiry& x) {
   else if (type == instance_removal::type)
     decode_and_forward<instances_removed, instance_removal>(
         self, x, limits::task::removal);
+  else if (type == build_keeping::type)
+    decode_and_forward<build_kept, build_keeping>(self, x,
+                                                  limits::build::keeping);
+  else if (type == build_release::type)
+    decode_and_forward<build_released, build_release>(self, x,
+                                                      limits::build::disk);
+  else if (type == image_query::type)
+    decode_and_forward<image_known, image_query>(self, x,
+                                                 limits::image::query_session);
+  else if (type == image_sharing::type)
+    decode_and_forward<image_shared, image_sharing>(
+        self, x, limits::image::sharing_session);
   else if (type == log_query::type)
     forward_log_query(self, x);
   else if (type == kept_logs_query::type)

@@ -61,6 +61,8 @@ void complain(self_pointer self, const std::string& problem,
 // -- membership_forwarding.cpp: what only a coordinator can answer ------------
 
 /// Has the coordinator answer a request of this node's user.
+caf::result<image_offered> ask_for_image(self_pointer self,
+                                         image_request request);
 caf::result<request_routed> pass_on(self_pointer self,
                                     const route_request& request);
 

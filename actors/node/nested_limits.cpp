@@ -1,3 +1,4 @@
+#include "actors/builds/limits.hpp"
 #include "actors/cell/limits.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "actors/core/limits.hpp"
@@ -39,6 +40,24 @@ static_assert(instance::announced_watchdog < instance::watchdog
               && instance::announced_watchdog / 2 < instance::pause_grace);
 static_assert(3 * instance::force_interval < instance::stop);
 static_assert(instance::force < instance::stop);
+
+static_assert(build::more < build::more_call
+              && build::piece_call < build::fetch);
+static_assert(build::fetch < instance::deployment);
+static_assert(build::keeping < build::keeping_session
+              && build::keeping_session < build::keeping_answer
+              && 2 * build::keeping_answer < build::addition);
+
+static_assert(engine::call < image::query
+              && image::query < image::query_session - session::margin
+              && image::query_session < image::query_answer);
+static_assert(engine::save + engine::image_tar < image::saving);
+static_assert(image::sharing < image::sharing_session - session::margin
+              && image::sharing_session < image::sharing_answer
+              && image::offer < image::offer_session
+              && image::offer_session < image::offer_answer);
+static_assert(engine::image_tar + engine::load < image::loading);
+static_assert(engine::bring < instance::build);
 
 static_assert(2 * engine::pack_step < engine::pack);
 static_assert(engine::build < instance::build);

@@ -1,5 +1,6 @@
 #include "actors/node/node_agent.hpp"
 
+#include "actors/builds/limits.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "actors/instances/limits.hpp"
 #include "actors/placement/reservation.hpp"
@@ -29,6 +30,22 @@ caf::result<Reply> forward(node_agent_self self,
                            const Message& message) {
   auto promise = self->make_response_promise<Reply>();
   self->request(self->state.config.supervisor, timeout, message)
+      .then([promise](Reply& x) mutable { promise.deliver(std::move(x)); },
+            [promise](caf::error& why) mutable {
+              promise.deliver(std::move(why));
+            });
+  return promise;
+}
+
+/// A node without an engine has no images.
+template <class Reply, class Message>
+caf::result<Reply> ask_images(node_agent_self self, const Message& message,
+                              std::chrono::milliseconds timeout) {
+  if (!self->state.builds.images)
+    return fail(error_code::conflict, "node '" + self->state.config.node
+                                          + "' has no container engine");
+  auto promise = self->make_response_promise<Reply>();
+  self->request(self->state.builds.images, timeout, message)
       .then([promise](Reply& x) mutable { promise.deliver(std::move(x)); },
             [promise](caf::error& why) mutable {
               promise.deliver(std::move(why));
@@ -159,16 +176,22 @@ caf::result<instances_reserved> keep(node_agent_self self,
 caf::result<instance_deployed> deploy(node_agent_self self,
                                       const instance_deployment& request) {
   auto promise = self->make_response_promise<instance_deployed>();
-  self->request(self->state.config.supervisor, limits::task::agent_deployment,
-                request)
-      .then(
-          [promise](instance_deployed& x) mutable {
-            promise.deliver(std::move(x));
-          },
-          [self, promise, request](caf::error& why) mutable {
-            self->state.kept.give_up(request.spec.task, request.spec.instance);
-            promise.deliver(std::move(why));
-          });
+  const auto refuse = [self, promise, request](const caf::error& why) mutable {
+    self->state.kept.give_up(request.spec.task, request.spec.instance);
+    promise.deliver(why);
+  };
+  with_build(
+      self, request,
+      [self, promise, request, refuse] {
+        self->request(self->state.config.supervisor,
+                      limits::task::agent_deployment, request)
+            .then(
+                [promise](instance_deployed& x) mutable {
+                  promise.deliver(std::move(x));
+                },
+                refuse);
+      },
+      refuse);
   return promise;
 }
 
@@ -200,6 +223,15 @@ local_agent_actor::behavior_type node_agent(node_agent_self self,
       [self](const kept_logs_query& x) {
         return forward<kept_logs>(self, limits::history::list, x);
       },
+      [self](const build_keeping& x) { return keep_build(self, x); },
+      [self](const build_release& x) { return release_build(self, x); },
+      [self](const image_query& x) {
+        return ask_images<image_known>(self, x, limits::image::query);
+      },
+      [self](const image_sharing& x) {
+        return ask_images<image_shared>(self, x, limits::image::sharing);
+      },
+      [self](const serve_builds& x) { self->state.builds = x; },
       [self](const use_settings& x) {
         auto& mine = self->state.config;
         mine.labels = x.labels;

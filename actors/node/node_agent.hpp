@@ -6,6 +6,7 @@
 
 #include <caf/result.hpp>
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -29,6 +30,7 @@ struct node_agent_state {
 
   node_agent_config config;
   reservation_table kept;
+  serve_builds builds; ///< Invalid handles: this node gets none.
   uint64_t reports = 0;
 };
 
@@ -45,5 +47,19 @@ using node_agent_pointer =
 /// What skills say of themselves, and what the host says of them. Nothing is
 /// read unless somebody asks.
 caf::result<figures_report> report_metrics(node_agent_pointer self);
+
+/// Gets a build that a step needs, if it comes from other nodes; then calls one
+/// of the two.
+void with_build(node_agent_pointer self, const instance_deployment& request,
+                const std::function<void()>& done,
+                const std::function<void(const caf::error&)>& fail);
+
+/// Gets a build that the cell counts on. Errors: as the BUILD FETCHER's.
+caf::result<build_kept> keep_build(node_agent_pointer self,
+                                   const build_keeping& request);
+
+/// It goes from this node. Errors: conflict (it runs).
+caf::result<build_released> release_build(node_agent_pointer self,
+                                          const build_release& request);
 
 } // namespace roscell

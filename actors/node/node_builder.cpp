@@ -1,6 +1,12 @@
 #include "actors/node/node_builder.hpp"
 
+#include "actors/builds/build_fetcher.hpp"
+#include "actors/builds/build_keeper.hpp"
+#include "actors/builds/images/image_exchange.hpp"
+#include "actors/builds/images/image_worker.hpp"
+#include "actors/builds/source_questions.hpp"
 #include "actors/cell/cell_coordinator.hpp"
+#include "actors/cell/state/build_offers.hpp"
 #include "actors/edge/host/interfaces.hpp"
 #include "actors/edge/host/own_process.hpp"
 #include "actors/instances/container_supervisor.hpp"
@@ -28,6 +34,7 @@
 #include "actors/session/session_connector.hpp"
 #include "messages/failure.hpp"
 
+#include <system_error>
 #include <utility>
 
 namespace roscell {
@@ -62,7 +69,9 @@ node_builder::node_builder(caf::actor_system& system, node_config config,
 void node_builder::build(running_node& result) {
   add(parts_.context.events);
   parts_.skills->get()->publish_problems(parts_.context, {});
+  start_images();
   start_supervision();
+  start_builds();
   if (parts_.config.coordinator)
     start_coordination();
   else
@@ -77,9 +86,9 @@ void node_builder::build(running_node& result) {
 
 std::function<runtime_actor(container_listener_actor)>
 node_builder::make_runtime() {
-  auto programs =
-      runtime_factory(system_, parts_.context, parts_.config, runtime_,
-                      data_.identity.uuid, *parts_.edges->io, history_);
+  auto programs = runtime_factory(system_, parts_.context, parts_.config,
+                                  runtime_, data_.identity.uuid,
+                                  *parts_.edges->io, history_, images_);
   if (additions_.actor_skills.empty())
     return programs;
   return [&system = system_, context = parts_.context, programs,
@@ -88,6 +97,33 @@ node_builder::make_runtime() {
     return spawn(system, context, runtime_switch, programs(listener),
                  actors(context, listener), listener);
   };
+}
+
+/// It works once it knows whom to ask: see `start_watching`.
+void node_builder::start_images() {
+  if (runtime_.socket.empty())
+    return;
+  const auto& config = parts_.config;
+  const auto cancel = std::make_shared<http_cancel>();
+  const engine_door door{runtime_.socket, runtime_.api,
+                         runtime_.name == "docker", cancel};
+  const auto work_dir = builds_folder(config) / "images";
+  // What an earlier run has left half done.
+  std::error_code ignored;
+  std::filesystem::remove_all(work_dir, ignored);
+  image_exchange_config with;
+  with.context = parts_.context;
+  with.node = config.name;
+  with.architecture = own_architecture();
+  with.builds = builds_folder(config);
+  with.most_bytes = config.builds_bytes;
+  with.stop_workers = [cancel] { cancel->cancel(); };
+  with.make_worker = [&system = system_, context = parts_.context, door,
+                      work_dir](const image_exchange_actor& owner) {
+    return spawn_blocking(system, context, image_worker,
+                          image_worker_config{door, work_dir}, owner);
+  };
+  images_ = start(image_exchange, with);
 }
 
 void node_builder::start_supervision() {
@@ -139,6 +175,11 @@ void node_builder::start_coordination() {
   setup.skills = skills->skills();
   setup.refused_skills = skills->published_problems();
   setup.agent = parts_.agent;
+  setup.keeper = parts_.services->keeper;
+  setup.build_key = new_build_key();
+  parts_.edges->permits->use_key(setup.build_key);
+  setup.builds = data_.builds;
+  setup.remains = data_.remains;
   setup.supervisor = parts_.services->supervisor;
   setup.store = store_;
   setup.tasks = data_.tasks;
@@ -216,6 +257,8 @@ void node_builder::start_membership() {
   with.agent = parts_.agent;
   with.supervisor = parts_.services->supervisor;
   with.store = store_;
+  with.permits = parts_.edges->permits;
+  with.keeper = parts_.services->keeper;
   with.diagnoser =
       start(join_diagnoser,
             join_diagnoser_config{parts_.edges->io.get(), config.address});
@@ -244,6 +287,33 @@ void node_builder::start_watching() {
     with.listener = services.membership;
   with.io = parts_.edges->io->core();
   parts_.watcher = start_blocking(skill_watcher, with);
+  caf::anon_send(parts_.agent, serve_builds{services.keeper, fetcher_,
+                                            parts_.watcher, images_});
+  if (!images_)
+    return;
+  image_broker_actor broker;
+  if (services.coordinator)
+    broker = services.coordinator;
+  else
+    broker = services.membership;
+  caf::anon_send(images_, serve_images{broker, services.keeper, fetcher_});
+}
+
+void node_builder::start_builds() {
+  const auto& config = parts_.config;
+  build_keeper_config keeping;
+  keeping.context = parts_.context;
+  keeping.folder = builds_folder(config);
+  keeping.most_bytes = config.builds_bytes;
+  keeping.supervisor = parts_.services->supervisor;
+  keeping.architecture = own_architecture();
+  parts_.services->keeper = start_blocking(build_keeper, keeping);
+  build_fetcher_config fetching;
+  fetching.context = parts_.context;
+  fetching.node = config.name;
+  fetching.keeper = parts_.services->keeper;
+  fetching.ask = source_asker(parts_.edges->io->core(), config.address);
+  fetcher_ = start(build_fetcher, fetching);
 }
 
 void node_builder::start_measuring() {

@@ -50,6 +50,7 @@ private:
   }
 
   std::function<runtime_actor(container_listener_actor)> make_runtime();
+  void start_images();
   void start_supervision();
   void start_coordination();
   scheduler_actor start_scheduler(std::shared_ptr<search_guard> guard);
@@ -58,6 +59,7 @@ private:
   membership_config membership_setup() const;
   void start_membership();
   void start_watching();
+  void start_builds();
   void start_measuring();
   void start_prober();
   void start_requests();
@@ -73,6 +75,8 @@ private:
   node_parts parts_;
   node_additions additions_;
   state_store_actor store_;
+  build_fetcher_actor fetcher_;
+  image_exchange_actor images_; ///< Invalid: there is no engine.
 };
 
 } // namespace roscell

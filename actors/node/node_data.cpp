@@ -223,7 +223,11 @@ caf::error load_tables(const node_config& config, node_data& data) {
     return why;
   if (auto why = load_records(config, data, "history", data.history))
     return why;
-  return load_records(config, data, "drains", data.drains);
+  if (auto why = load_records(config, data, "drains", data.drains))
+    return why;
+  if (auto why = load_records(config, data, "builds", data.builds))
+    return why;
+  return load_records(config, data, "removed_builds", data.remains);
 }
 
 caf::error load_tokens(const node_config& config, node_data& data) {

@@ -36,6 +36,11 @@ caf::error open_http(const node_config& config, const node_data& data,
                                               const responder& answer) {
     (*handler)(std::move(request), answer);
   };
+  options.permits = [permits = edges.permits](const std::string& path,
+                                              std::string_view token,
+                                              const std::string& from) {
+    return permits->allows(path, token, from);
+  };
   heartbeat_socket_options heartbeats;
   heartbeats.site = data.site;
   auto opened =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/builds/build_permits.hpp"
 #include "actors/core/actor_context.hpp"
 #include "actors/edge/dds/discovery_server.hpp"
 #include "actors/edge/http/http_server.hpp"
@@ -55,6 +56,8 @@ struct node_edges {
   std::map<std::string, std::string> environment;
   /// What the node's discovery server knows, whichever it is at present.
   std::shared_ptr<ros_graph> graph = std::make_shared<ros_graph>();
+  /// Whom this node gives builds.
+  std::shared_ptr<build_permits> permits = std::make_shared<build_permits>();
 };
 
 /// Opens the ports of a node. Errors: conflict (a port is in use), unreachable

@@ -1,7 +1,9 @@
 #include "actors/node/node_runtime.hpp"
 
+#include "actors/builds/build_store.hpp"
 #include "actors/core/edge_failure.hpp"
 #include "actors/edge/engine/engine_search.hpp"
+#include "actors/edge/engine/registry_login.hpp"
 #include "actors/edge/host/own_process.hpp"
 #include "actors/edge/process/notify_socket.hpp"
 #include "actors/instances/engine/engine_runtime.hpp"
@@ -43,7 +45,11 @@ caf::expected<chosen_runtime> choose_processes(const node_config& config,
 /// Without a shim it runs all but what may move to another node.
 chosen_runtime choose_engine(const node_config& config,
                              const found_engine& engine) {
-  return {engine.name, engine.socket, engine.rootless, shim_of(config),
+  return {engine.name,
+          engine.socket,
+          engine.api,
+          engine.rootless,
+          shim_of(config),
           engine.name + (engine.version.empty() ? "" : " ") + engine.version
               + " answers on '" + engine.socket
               + (engine.rootless ? "', without root" : "'")};
@@ -111,12 +117,17 @@ std::function<runtime_actor(container_listener_actor)>
 runtime_factory(caf::actor_system& system, const actor_context& context,
                 const node_config& config, const chosen_runtime& chosen,
                 const std::string& node_uuid, const io_thread& io,
-                const node_history_actor& history) {
+                const node_history_actor& history,
+                const image_exchange_actor& images) {
   if (chosen.socket.empty())
     return process_factory(system, context, config, chosen, io, history);
   engine_runtime_config setup;
   setup.context = context;
   setup.socket = chosen.socket;
+  setup.api = chosen.api;
+  setup.images = images;
+  setup.logins = find_login_places(chosen.name, config.registry_auth);
+  setup.kept_images = config.skill_images;
   setup.setting = {node_uuid, config.log_bytes, chosen.name, chosen.rootless};
   setup.shim = chosen.shim;
   setup.data_dir = config.data_dir;
@@ -140,13 +151,19 @@ environment_writer make_environment_writer(const node_config& config,
   };
 }
 
+fs::path builds_folder(const node_config& config) {
+  return config.data_dir / "builds";
+}
+
 skill_places skill_places_of(const node_config& config) {
   const auto own = config.data_dir / "skills";
   // There from the first, so that what is put into it is seen. Where the disk
   // takes nothing, nobody puts anything there.
   std::error_code ignored;
   fs::create_directory(own, ignored);
-  return {config.skill_dirs, {installed_skills(program_folder()), own}};
+  return {config.skill_dirs,
+          {installed_skills(program_folder()), own,
+           build_store::skills_in(builds_folder(config))}};
 }
 
 caf::expected<shared_skill_catalogue>

@@ -22,6 +22,7 @@ namespace roscell {
 struct chosen_runtime {
   std::string name;           ///< "process", "docker" or "podman".
   std::string socket;         ///< Of the engine; empty: there is none.
+  std::string api;            ///< Version of Docker's API that is spoken.
   bool rootless = false;      ///< The engine runs without root.
   std::filesystem::path shim; ///< For processes, and for fences.
   std::string reason;         ///< Why this one, a sentence for the operator.
@@ -46,12 +47,16 @@ std::function<runtime_actor(container_listener_actor)>
 runtime_factory(caf::actor_system& system, const actor_context& context,
                 const node_config& config, const chosen_runtime& chosen,
                 const std::string& node_uuid, const io_thread& io,
-                const node_history_actor& history);
+                const node_history_actor& history,
+                const image_exchange_actor& images);
 
 /// Tells instances of that runtime, while they run, of other values of
 /// variables.
 environment_writer make_environment_writer(const node_config& config,
                                            const chosen_runtime& chosen);
+
+/// Where builds lie that come from other nodes.
+std::filesystem::path builds_folder(const node_config& config);
 
 /// Where a node looks for skills. Makes the folder for them in its data
 /// directory, which is there.

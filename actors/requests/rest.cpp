@@ -108,6 +108,13 @@ struct route_starter {
     start_scrape(system, services.services, answer, x.format);
   }
 
+  void operator()(const build_request& x) const {
+    if (services.services && services.services->keeper)
+      return start_build_exchange(system, services.context,
+                                  services.services->keeper, x, answer);
+    (*this)(failure{error_code::conflict, "this node keeps no builds"});
+  }
+
   void operator()(const failure& why) const {
     answer.reply(http_status(why.code), json_content, error_reply(why).dump());
   }

@@ -36,7 +36,8 @@ failure not_found(const http_request& request) {
       "/v1/hello, /v1/node, /v1/cost, /v1/actors/{name}, /v1/cell, /v1/cells, "
       "/v1/tasks, /v1/tasks/{task}, the same with /placement or /trace, "
       "/v1/instances, /v1/instances/{id}, the same with /logs, /v1/skills, "
-      "/v1/topics, /v1/events, /metrics and /healthz"};
+      "/v1/topics, /v1/events, /v1/builds/{hash}, the same with /manifest or "
+      "/pieces/{n} (GET and POST), /metrics and /healthz"};
 }
 
 /// A number of the query part: `fallback` if absent, nothing if it is no
@@ -174,6 +175,9 @@ rest_route query_route(const http_request& request,
 
 rest_route route_of(const http_request& request) {
   const auto parts = split(request.path);
+  if (auto build = build_route(request, parts))
+    return std::visit([](auto& x) -> rest_route { return std::move(x); },
+                      *build);
   if (request.method == "POST") {
     if (request.path == "/v1/requests")
       return json_request{request.body, "", request.from};

@@ -2,6 +2,7 @@
 
 #include "actors/edge/http/http_types.hpp"
 #include "actors/requests/metrics/exposition.hpp"
+#include "actors/requests/rest_builds.hpp"
 #include "messages/failure.hpp"
 #include "messages/inside/storage.hpp"
 #include "messages/instance.hpp"
@@ -49,7 +50,8 @@ struct json_request {
 /// What an HTTP request asks for, or why it asks for nothing.
 using rest_route =
     std::variant<json_request, event_stream_request, past_events_request,
-                 log_stream_request, health_check, metrics_request, failure>;
+                 log_stream_request, health_check, metrics_request,
+                 build_request, failure>;
 
 /// The paths of the REST interface; docs/operations.md lists them.
 rest_route route_of(const http_request& request);

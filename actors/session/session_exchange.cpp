@@ -155,10 +155,11 @@ constexpr std::array<std::string_view, 10> queries{
     topic_query::type,         instance_query::type};
 
 /// What it has to do something for.
-constexpr std::array<std::string_view, 7> commands{
-    task_request::type,  task_plan_query::type, task_termination::type,
-    task_restart::type,  node_drain::type,      node_undrain::type,
-    cell_rebalance::type};
+constexpr std::array<std::string_view, 10> commands{
+    task_request::type,   task_plan_query::type, task_termination::type,
+    task_restart::type,   node_drain::type,      node_undrain::type,
+    cell_rebalance::type, skill_addition::type,  skill_removal::type,
+    skill_pull::type};
 
 /// That whoever waits for the member's answer waits longer than the member.
 constexpr std::chrono::seconds log_margin{2};

@@ -59,6 +59,15 @@ struct node_config {
   /// gone. The oldest goes first.
   uint64_t history_bytes = 64 * 1024 * 1024;
   std::chrono::seconds history_age = std::chrono::hours{7 * 24};
+  /// Of all builds of skills that come from other nodes. What was not used for
+  /// longest goes when another one needs the room.
+  uint64_t builds_bytes = 20ULL << 30;
+  /// How to log in to registries of container images, in the form of Docker's
+  /// config.json; empty: as the user of the engine does.
+  std::filesystem::path registry_auth;
+  /// Images of skills that are kept though no container has them. The oldest
+  /// go first.
+  uint64_t skill_images = 20;
   /// What is shown to whoever asks over the Unix socket. Coordinators only.
   web_pages pages;
 };

@@ -23,12 +23,6 @@ std::string key_of(const prepare_image& request) {
   return request.skill + ' ' + request.base_image;
 }
 
-image_work* find_work(engine_runtime_pointer self, const std::string& key) {
-  const auto i = self->state.works.find(key);
-  return i != self->state.works.end() ? &i->second : nullptr;
-}
-
-/// The work is over, one way or the other.
 template <class Result>
 void conclude(engine_runtime_pointer self, const std::string& key,
               const Result& result) {
@@ -61,23 +55,44 @@ std::string joined(const std::deque<std::string>& lines) {
   return result;
 }
 
-/// How a failed build is told, with the end of its log.
+} // namespace
+
+image_work* find_work(engine_runtime_pointer self, const std::string& key) {
+  const auto i = self->state.works.find(key);
+  return i != self->state.works.end() ? &i->second : nullptr;
+}
+
+void conclude_work(engine_runtime_pointer self, const std::string& key,
+                   const image_prepared& result) {
+  if (const auto* work = find_work(self, key))
+    for (const auto& x : work->waiters)
+      self->state.named[x.instance] = result.image;
+  conclude(self, key, result);
+}
+
+void fail_work(engine_runtime_pointer self, const std::string& key,
+               const caf::error& why) {
+  conclude(self, key, why);
+}
+
 caf::error build_failure(const engine_runtime_state& st, const image_work& work,
-                         const std::string& why, std::string hint) {
+                         const std::string& why, const std::string& hint) {
   const auto what =
       "the image of '" + work.request.operation + "' cannot be built: " + why;
-  if (!work.has_base && hint.empty())
-    hint = "the base image must be on this host or in a registry that it "
-           "reaches: "
-           + st.config.setting.engine + " pull " + work.request.base_image;
   const json details{{"log_tail", joined(work.log)}};
   return to_error(
       {error_code::engine_failed,
        what,
        {},
-       std::move(hint),
+       hint.empty() && !work.has_base
+           ? "the base image must be on this host or in a registry that it "
+             "reaches: "
+                 + st.config.setting.engine + " pull " + work.request.base_image
+           : hint,
        details.dump(-1, ' ', false, json::error_handler_t::replace)});
 }
+
+namespace {
 
 void find_image(engine_runtime_pointer self, const std::string& key);
 
@@ -103,7 +118,8 @@ void on_built(engine_runtime_pointer self, const std::string& key,
   self->state.config.context.publish_event(
       events::image_built, work->image,
       {{"operation", work->request.operation}, {"ms", spent.count()}});
-  conclude(self, key, image_prepared{work->image});
+  clean_images(self);
+  conclude_work(self, key, image_prepared{work->image});
 }
 
 void build(engine_runtime_pointer self, const std::string& key) {
@@ -124,22 +140,9 @@ void build(engine_runtime_pointer self, const std::string& key) {
   work.build = std::move(opened.stream);
 }
 
-/// A request to the packer whose answer is dropped when the work is over.
-template <class Reply, class Request, class F>
-void ask_packer(engine_runtime_pointer self, const std::string& key,
-                std::chrono::milliseconds limit, const Request& what,
-                F on_reply) {
-  self->request(find_work(self, key)->packer, limit, what)
-      .then(
-          [=](const Reply& x) {
-            if (auto* work = find_work(self, key))
-              on_reply(*work, x);
-          },
-          [=](const caf::error& error) { conclude(self, key, error); });
-}
-
 void pack(engine_runtime_pointer self, const std::string& key) {
-  ask_packer<image_packed>(self, key, limits::engine::pack, pack_image{},
+  ask_packer<image_packed>(self, key, limits::engine::pack,
+                           pack_image{find_work(self, key)->base},
                            [=](image_work& work, const image_packed& x) {
                              work.context = x.file;
                              build(self, key);
@@ -150,7 +153,7 @@ void plan(engine_runtime_pointer self, const std::string& key) {
   auto& st = self->state;
   auto& work = *find_work(self, key);
   work.packer = spawn_blocking(self->system(), st.config.context, image_packer,
-                               st.config.data_dir / "build",
+                               st.config.data_dir / "build", st.config.logins,
                                caf::actor_cast<engine_runtime_actor>(self));
   ask_packer<image_planned>(self, key, limits::engine::plan, work.request,
                             [=](image_work&, const image_planned& x) {
@@ -170,11 +173,13 @@ void find_image(engine_runtime_pointer self, const std::string& key) {
     if (found == nullptr)
       return;
     if (is_good(x))
-      return conclude(self, key, image_prepared{found->image});
+      return conclude_work(self, key, image_prepared{found->image});
     if (x.status != 404)
       return conclude(self, key,
                       engine_failure("cannot look for the image", x));
-    found->packer ? pack(self, key) : plan(self, key);
+    if (!found->packer)
+      return plan(self, key);
+    find_base(self, key, [=] { pack(self, key); });
   });
 }
 
@@ -234,6 +239,8 @@ void on_build_lines(engine_runtime_pointer self, image_work& work,
     const auto step = step_of(line);
     if (auto error = text_at(line, "error"); !error.empty())
       work.error = error;
+    if (work.silent_at)
+      work.silent_at = self->clock().now() + limits::engine::pull_silence;
     if (step.empty())
       continue;
     work.has_base = work.has_base || step.rfind("Step 2/", 0) == 0

@@ -72,6 +72,48 @@ void on_build_lines(engine_runtime_pointer self, image_work& work,
 /// sets the alarm for the others.
 void report_build_steps(engine_runtime_pointer self);
 
+/// Null: it is over.
+image_work* find_work(engine_runtime_pointer self, const std::string& key);
+
+/// The work is over, one way or the other.
+void conclude_work(engine_runtime_pointer self, const std::string& key,
+                   const image_prepared& result);
+void fail_work(engine_runtime_pointer self, const std::string& key,
+               const caf::error& why);
+
+/// How an image that cannot be built is told, with the end of the log.
+caf::error build_failure(const engine_runtime_state& st, const image_work& work,
+                         const std::string& why, const std::string& hint);
+
+/// A request to the packer whose answer is dropped when the work is over.
+template <class Reply, class Request, class F>
+void ask_packer(engine_runtime_pointer self, const std::string& key,
+                std::chrono::milliseconds limit, const Request& what,
+                F on_reply) {
+  self->request(find_work(self, key)->packer, limit, what)
+      .then(
+          [=](const Reply& x) {
+            if (auto* work = find_work(self, key))
+              on_reply(*work, x);
+          },
+          [=](const caf::error& error) { fail_work(self, key, error); });
+}
+
+// Base images: engine_base.cpp.
+
+/// Has the engine know the base image, from another node or its registry; then
+/// calls `then`, if the work is still to be done.
+void find_base(engine_runtime_pointer self, const std::string& key,
+               std::function<void()> then);
+
+/// Ends the pulls whose registries say nothing, and sets the alarm for others.
+void end_silent_pulls(engine_runtime_pointer self);
+
+// Images that are not used any more: engine_cleaning.cpp.
+
+/// Removes those that are beyond the bound. What cannot be removed stays.
+void clean_images(engine_runtime_pointer self);
+
 // Containers: engine_start.cpp, engine_stop.cpp, engine_parts.cpp.
 caf::result<container_started> start(engine_runtime_pointer self,
                                      const start_container& request);

@@ -41,6 +41,7 @@ void on_alarm(engine_runtime_pointer self) {
     st.timer.set(self, *st.next_attempt);
   release_followers(self);
   report_build_steps(self);
+  end_silent_pulls(self);
 }
 
 /// Null where the container is not the present one of its instance, or is not
@@ -91,7 +92,8 @@ engine_runtime(engine_runtime_pointer self, const engine_runtime_config& config,
   auto& st = self->state;
   st.config = config;
   st.listener = std::move(listener);
-  st.client = std::make_unique<engine_client>(config.io, config.socket);
+  st.client =
+      std::make_unique<engine_client>(config.io, config.socket, config.api);
   watch_until_own_end(self, st.listener);
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->quit(down.reason); });

@@ -5,6 +5,7 @@
 #include "actors/core/backoff.hpp"
 #include "actors/edge/engine/build_context.hpp"
 #include "actors/edge/engine/engine_client.hpp"
+#include "actors/edge/engine/registry_login.hpp"
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/instances/engine/container_document.hpp"
 #include "messages/messages.hpp"
@@ -28,6 +29,7 @@ namespace roscell {
 struct engine_runtime_config {
   actor_context context;
   std::string socket; ///< The engine's Unix socket.
+  std::string api;    ///< Version of Docker's API; empty: the engine's own.
   container_setting setting;
   std::filesystem::path shim; ///< tools/instance_shim, for fences.
   /// notify/, build/ and a copy of the shim go below it: the engine may be
@@ -37,6 +39,10 @@ struct engine_runtime_config {
   /// The logs of containers that are removed go here; empty: they are not kept.
   std::filesystem::path kept_logs;
   node_history_actor history; ///< Told of each; may be invalid.
+  /// Gets images from other nodes; invalid: they come from registries only.
+  image_exchange_actor images{};
+  login_places logins{};   ///< For registries.
+  size_t kept_images = 20; ///< That no container has.
 };
 
 /// A container that runs, or may soon.
@@ -64,10 +70,13 @@ struct image_work {
   std::string image;
   std::string context; ///< Tar file of the build; empty: none.
   engine_stream build;
-  uint64_t call = 0;             ///< Of `build`.
-  std::deque<std::string> log;   ///< The last lines of the build.
-  std::string error;             ///< What the engine says went wrong.
-  bool has_base = false;         ///< The base image was found.
+  uint64_t call = 0;           ///< Of `build`.
+  std::deque<std::string> log; ///< The last lines of the build.
+  std::string error;           ///< What the engine says went wrong.
+  bool has_base = false;       ///< The base image was found.
+  std::string base;            ///< Its id, where the engine needs that.
+  /// While it is pulled: when its registry has said nothing for too long.
+  std::optional<alarm::time_point> silent_at;
   std::string step;              ///< How it gets on, not told yet.
   alarm::time_point next_status; ///< Not before is it told.
   alarm::time_point began;
@@ -121,6 +130,7 @@ struct engine_runtime_state {
   std::map<std::string, engine_container> containers;   ///< By instance.
   std::map<std::string, image_plan> plans;              ///< By key.
   std::map<std::string, image_work> works;              ///< By key.
+  std::map<std::string, std::string> named;             ///< By instance.
   std::map<uint64_t, engine_log_follower> followers;    ///< By call.
   std::map<uint64_t, engine_log_reading> readings;      ///< By call.
   std::vector<std::function<void()>> waiting_adoptions; ///< For a connection.

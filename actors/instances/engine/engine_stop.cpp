@@ -111,6 +111,8 @@ caf::result<container_removed> remove(engine_runtime_pointer self,
                                       const remove_container& request) {
   if (!is_instance_id(request.instance))
     return bad_id(request.instance);
+  if (!request.restarts)
+    self->state.named.erase(request.instance);
   auto promise = self->make_response_promise<container_removed>();
   auto* x = find_container(self, request.instance);
   if (x != nullptr && x->settling)

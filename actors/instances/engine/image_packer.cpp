@@ -69,11 +69,22 @@ caf::result<image_planned> plan(image_packer_self self,
                        content.dockerfile, std::move(marks)};
 }
 
-caf::result<image_packed> pack(image_packer_self self) {
+/// The image's own name tells of its base by that one's name, whichever way
+/// this host's engine knows it.
+image_content content_on(const image_packer_state& st,
+                         const std::string& base) {
+  auto result = st.content;
+  if (!base.empty())
+    result.dockerfile.replace(0, result.dockerfile.find('\n'), "FROM " + base);
+  return result;
+}
+
+caf::result<image_packed> pack(image_packer_self self,
+                               const std::string& base) {
   const auto& st = self->state;
   if (st.content.dockerfile.empty())
     return fail(error_code::conflict, "no image has been planned");
-  const auto file = write_build_context(st.content, st.work_dir);
+  const auto file = write_build_context(content_on(st, base), st.work_dir);
   if (const auto* error = std::get_if<edge_error>(&file))
     return to_caf(*error);
   const auto& packed = std::get<std::filesystem::path>(file);
@@ -91,12 +102,20 @@ caf::result<image_packed> pack(image_packer_self self) {
               {}, "start it again once they have been installed");
 }
 
+caf::result<login_found> find(image_packer_self self, const find_login& x) {
+  auto header = find_login_header(x.image, self->state.logins);
+  if (const auto* error = std::get_if<edge_error>(&header))
+    return to_caf(*error);
+  return login_found{std::get<std::string>(std::move(header))};
+}
+
 } // namespace
 
 image_packer_actor::behavior_type
 image_packer(image_packer_self self, const std::filesystem::path& work_dir,
-             const engine_runtime_actor& owner) {
+             const login_places& logins, const engine_runtime_actor& owner) {
   self->state.work_dir = work_dir;
+  self->state.logins = logins;
   watch_until_own_end(self, owner);
   self->set_down_handler(
       [self](const caf::down_msg& down) { self->quit(down.reason); });
@@ -105,7 +124,8 @@ image_packer(image_packer_self self, const std::filesystem::path& work_dir,
         return state_of({{"skill", self->state.content.skill_dir.string()}});
       },
       [self](const prepare_image& x) { return plan(self, x); },
-      [self](const pack_image&) { return pack(self); },
+      [self](const pack_image& x) { return pack(self, x.base); },
+      [self](const find_login& x) { return find(self, x); },
   };
 }
 

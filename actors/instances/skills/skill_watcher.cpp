@@ -134,6 +134,10 @@ skill_watcher(watcher_pointer self, const skill_watcher_config& config) {
                          {"unwatched", state.unwatched}});
       },
       [self](const skill_folders_touched&) { on_touched(self); },
+      [self](const read_skills&) {
+        read_folders(self, true);
+        return skills_read{};
+      },
       [self](const use_settings& x) { take_places(self, x); },
       [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
   };

@@ -27,6 +27,8 @@ void cost_ring::slice::add(const slice& other) {
   cpu_s += other.cpu_s;
   pss_byte_s += other.pss_byte_s;
   written_bytes += other.written_bytes;
+  builds.sent_bytes += other.builds.sent_bytes;
+  builds.received_bytes += other.builds.received_bytes;
   peers.resize(std::max(peers.size(), other.peers.size()));
   for (size_t i = 0; i < other.peers.size(); ++i) {
     peers[i].sent_bytes += other.peers[i].sent_bytes;
@@ -103,6 +105,13 @@ cost_ring::by_place(const std::vector<peer_traffic>& reported) {
   return result;
 }
 
+cost_ring::traffic cost_ring::traffic_between(const peer_traffic& before,
+                                              const peer_traffic& now) {
+  return {
+      static_cast<float>(growth(before.sent_bytes, now.sent_bytes)),
+      static_cast<float>(growth(before.received_bytes, now.received_bytes))};
+}
+
 /// @param reading its peers by place.
 cost_ring::slice cost_ring::slice_until(time_point now,
                                         const cost_reading& reading) const {
@@ -112,13 +121,9 @@ cost_ring::slice cost_ring::slice_until(time_point now,
   result.cpu_s = growth(last_.cpu_s, reading.cpu_s);
   result.pss_byte_s = reading.pss_bytes * seconds{result.span}.count();
   result.written_bytes = growth(last_.written_bytes, reading.written_bytes);
-  for (size_t i = 0; i < reading.peers.size(); ++i) {
-    const auto& before = last_.peers[i];
-    const auto& x = reading.peers[i];
-    result.peers.push_back(
-        {static_cast<float>(growth(before.sent_bytes, x.sent_bytes)),
-         static_cast<float>(growth(before.received_bytes, x.received_bytes))});
-  }
+  result.builds = traffic_between(last_.builds, reading.builds);
+  for (size_t i = 0; i < reading.peers.size(); ++i)
+    result.peers.push_back(traffic_between(last_.peers[i], reading.peers[i]));
   return result;
 }
 
@@ -131,6 +136,8 @@ cost_window cost_ring::window_of(const track& x) const {
   result.pss_bytes =
       result.span_s > 0 ? sum.pss_byte_s / result.span_s : last_.pss_bytes;
   result.written_bytes = sum.written_bytes;
+  result.builds_sent_bytes = sum.builds.sent_bytes;
+  result.builds_received_bytes = sum.builds.received_bytes;
   for (size_t i = 0; i < sum.peers.size(); ++i)
     if (sum.peers[i].sent_bytes > 0 || sum.peers[i].received_bytes > 0)
       result.peers.push_back({last_.peers[i].peer, sum.peers[i].sent_bytes,
@@ -158,9 +165,15 @@ std::vector<peer_traffic> session_traffic(const metric_table& table) {
 
 cost_reading read_cost(const std::shared_ptr<metric_table>& table) {
   const auto own = read_own_cost();
-  cost_reading result{own.cpu_seconds, own.pss_bytes, own.written_bytes, {}};
-  if (table)
-    result.peers = session_traffic(*table);
+  cost_reading result{
+      own.cpu_seconds, own.pss_bytes, own.written_bytes, {}, {}};
+  if (!table)
+    return result;
+  result.peers = session_traffic(*table);
+  for (const auto& x : table->samples(metric::builds_sent_bytes))
+    result.builds.sent_bytes += x.sum;
+  for (const auto& x : table->samples(metric::builds_received_bytes))
+    result.builds.received_bytes += x.sum;
   return result;
 }
 

@@ -21,6 +21,7 @@ struct cost_reading {
   double pss_bytes = 0; ///< At this moment.
   double written_bytes = 0;
   std::vector<peer_traffic> peers;
+  peer_traffic builds; ///< With all nodes together.
 };
 
 /// Reads the process, and from the table what went over sessions; null: nothing
@@ -32,7 +33,7 @@ cost_reading read_cost(const std::shared_ptr<metric_table>& table);
 /// are complete and the one that is being filled, so it covers up to one slice
 /// more than its name says, and less after the start.
 ///
-/// Bounded: 16 slices of 56 bytes, for each peer 8 bytes in each of them and 48
+/// Bounded: 16 slices of 64 bytes, for each peer 8 bytes in each of them and 48
 /// for its name and counters, which is 2 KiB for a few peers and 12 KiB for the
 /// most. Peers that come later count as "other".
 class cost_ring {
@@ -61,6 +62,7 @@ private:
     double cpu_s = 0;
     double pss_byte_s = 0; ///< Its integral over the time.
     double written_bytes = 0;
+    traffic builds;
     std::vector<traffic> peers; ///< By the peer's place; may be shorter.
 
     void add(const slice& other);
@@ -80,6 +82,8 @@ private:
 
   size_t place_of(const std::string& peer);
   std::vector<peer_traffic> by_place(const std::vector<peer_traffic>& reported);
+  static traffic traffic_between(const peer_traffic& before,
+                                 const peer_traffic& now);
   slice slice_until(time_point now, const cost_reading& reading) const;
   cost_window window_of(const track& x) const;
 

@@ -1,5 +1,6 @@
 #include "actors/requests/handler_pipeline.hpp"
 
+#include "actors/builds/limits.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "actors/placement/limits.hpp"
 #include "actors/requests/handlers/forwarding.hpp"
@@ -76,6 +77,11 @@ void add_cell_commands(request_registry& registry) {
       limits::task::restart, whom));
   registry.add(forward_within<node_drain, node_drained>(soon, whom));
   registry.add(forward_within<node_undrain, node_undrained>(soon, whom));
+  registry.add(forward_within<skill_addition, skill_added>(
+      limits::build::addition, whom));
+  registry.add(forward_within<skill_removal, skill_removed>(soon, whom));
+  registry.add(
+      forward_within<skill_pull, skill_pulled>(limits::build::pull, whom));
   registry.add(forward_within<cell_rebalance, cell_rebalanced>(
       limits::task::search + soon, whom));
   registry.add(forward_within<cell_formation, cell_formed>(

@@ -160,15 +160,20 @@ void record_plan(const request_context& context, reserved_task held,
       {{"score", task.plan.score}, {"allocations", task.plan.allocations}});
   context.history().decide(
       {task.request.task, unix_now_ms(), message_json(task.plan).dump(), ""});
-  intended_task next{task.request.task,   {},
-                     intent.nodes,        {},
-                     task.plan.preempted, task.request.force,
+  intended_task next{task.request.task,
+                     {},
+                     intent.nodes,
+                     {},
+                     {},
+                     task.plan.preempted,
+                     task.request.force,
                      task.plan.cpu_floor};
   ask<intent_recorded>(context, context.services->coordinator,
                        limits::task::rollback, std::move(intent), done,
                        [done, next](intent_recorded known) mutable {
                          next.specs = std::move(known.specs);
                          next.agents = std::move(known.agents);
+                         next.offers = std::move(known.offers);
                          done.deliver(std::move(next));
                        });
 }
@@ -228,7 +233,7 @@ private:
     auto self = shared_from_this();
     context_.call<instance_deployed>(
         task_.agents[i], limits::task::deployment_answer,
-        instance_deployment{task_.specs[i]},
+        instance_deployment{task_.specs[i], task_.offers[i]},
         [self, i](const instance_deployed&) { self->on_running(i); },
         [self, i](const caf::error& why) {
           self->tally_.add_failure(

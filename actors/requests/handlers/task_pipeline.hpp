@@ -46,8 +46,9 @@ struct reserved_task {
 struct intended_task {
   std::string task;
   std::vector<instance_spec> specs;
-  std::vector<std::string> nodes;            ///< Node of each spec.
-  std::vector<node_agent_actor> agents;      ///< The same.
+  std::vector<std::string> nodes;       ///< Node of each spec.
+  std::vector<node_agent_actor> agents; ///< The same.
+  std::vector<build_offer> offers; ///< Where it gets the build, if it lacks it.
   std::vector<preempted_instance> preempted; ///< They have to go before.
   bool force = false;     ///< They are not waited for to be stop-safe.
   bool cpu_floor = false; ///< As in the plan.

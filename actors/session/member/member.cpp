@@ -1,5 +1,6 @@
 #include "actors/session/member/member.hpp"
 
+#include "actors/builds/limits.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "actors/core/watching.hpp"
 #include "actors/session/limits.hpp"
@@ -200,6 +201,18 @@ member_actor::behavior_type member(self_pointer self, session_admitted accepted,
       },
       [self](const instance_removal& x) {
         return ask_node<instances_removed>(self, x, limits::task::removal);
+      },
+      [self](const build_keeping& x) {
+        return ask_node<build_kept>(self, x, limits::build::keeping_session);
+      },
+      [self](const build_release& x) {
+        return ask_node<build_released>(self, x, limits::build::disk);
+      },
+      [self](const image_query& x) {
+        return ask_node<image_known>(self, x, limits::image::query_session);
+      },
+      [self](const image_sharing& x) {
+        return ask_node<image_shared>(self, x, limits::image::sharing_session);
       },
       [self](const registration_switch& x) {
         return ask_node<switch_accepted>(self, x,

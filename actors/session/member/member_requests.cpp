@@ -1,3 +1,4 @@
+#include "actors/builds/limits.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "actors/core/clocks.hpp"
 #include "actors/session/limits.hpp"
@@ -158,6 +159,23 @@ void on_forwarded(self_pointer self, uint64_t id, const json& body,
           });
 }
 
+/// The node's engine lacks an image. Who it is for is known by its session.
+void on_image_request(self_pointer self, uint64_t id, const json& body) {
+  auto request = decode<image_request>(body);
+  if (auto* why = std::get_if<failure>(&request))
+    return refuse_call(self, id, *why);
+  auto& x = std::get<image_request>(request);
+  x.node = self->state.peer.name;
+  self->request(self->state.coordinator, limits::image::offer, x)
+      .then(
+          [self, id](const image_offered& reply) {
+            self->state.frames.answer(id, message_json(reply));
+          },
+          [self, id](const caf::error& why) {
+            refuse_call(self, id, to_failure(why));
+          });
+}
+
 } // namespace
 
 void on_request(self_pointer self, uint64_t id, const session_inquiry& x) {
@@ -177,6 +195,8 @@ void on_request(self_pointer self, uint64_t id, const session_inquiry& x) {
   }
   if (type == node_departure::type)
     return on_departure(self, id, x.body);
+  if (type == image_request::type)
+    return on_image_request(self, id, x.body);
   if (const auto waits = forwarding_of(type))
     return on_forwarded(self, id, x.body, waits->coordinator);
   refuse_call(
