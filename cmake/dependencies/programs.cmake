@@ -10,6 +10,10 @@ find_library(TINFO_LIBRARY tinfo REQUIRED)
 find_path(EDIT_INCLUDE histedit.h REQUIRED)
 find_library(EDIT_LIBRARY edit REQUIRED)
 
+# Archives of skills. Debian ships libarchive without a CMake package.
+find_path(ARCHIVE_INCLUDE archive.h REQUIRED)
+find_library(ARCHIVE_LIBRARY archive REQUIRED)
+
 # For the skills that look at images. OpenCV's CMake package would ask for all
 # of its parts; the few that are used are found one by one.
 find_path(EIGEN_INCLUDE Eigen/Core PATH_SUFFIXES eigen3 REQUIRED)

@@ -12,7 +12,7 @@ const PARTS = {
     + 'stream_fields task_copy task_document task_form what_if',
   requests: 'catalogue refusal_view request_form requests_page sender',
   pages: 'columns event_rows events_page instance_page instances_page log_follower log_view node_page '
-    + 'pages search_field site_page task_page tasks_page topics_page',
+    + 'pages search_field site_page skills_page task_page tasks_page topics_page',
 };
 
 for (const [folder, names] of Object.entries(PARTS))

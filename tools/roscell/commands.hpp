@@ -42,6 +42,9 @@ void add_new_config_command(CLI::App& app, CLI::App& parent, action& chosen);
 void add_skill_show_command(CLI::App& skills, action& chosen);
 void add_skill_new_command(CLI::App& skills, action& chosen);
 void add_skill_check_command(CLI::App& skills, action& chosen);
+void add_skill_add_command(CLI::App& skills, action& chosen);
+void add_skill_pull_command(CLI::App& skills, action& chosen);
+void add_skill_remove_command(CLI::App& skills, action& chosen);
 
 /// env.
 void add_env_command(CLI::App& app, action& chosen);

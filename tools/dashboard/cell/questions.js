@@ -96,6 +96,7 @@ const ANSWERS = {
     const list = await get('skills');
     store.skills = list.skills;
     store.refusedSkills = list.refused ?? [];
+    store.cellBuilds = list.builds ?? [];
     store.touch('skills');
   },
   node: async (store) => {

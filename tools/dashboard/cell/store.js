@@ -19,6 +19,7 @@ export class Store {
     this.cells = [];
     this.skills = [];
     this.refusedSkills = [];
+    this.cellBuilds = [];
     this.topics = [];
     this.events = [];
     this.link = { state: 'connecting', since: Date.now() };

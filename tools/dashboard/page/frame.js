@@ -11,6 +11,7 @@ import { clock, count } from './words.js';
 const WAYS = [
   ['site', 'Site', 's', 'cells and nodes'], ['tasks', 'Tasks', 't', 'tasks'],
   ['instances', 'Instances', 'i', 'instances'], ['topics', 'Topics', 'o', 'topics'],
+  ['skills', 'Skills', 'k', 'skills'],
   ['events', 'Events', 'e', 'events'], ['plan', 'New task', 'n', 'a new task, and where it would go'],
   ['requests', 'Requests', 'r', 'requests to nodes and tasks'],
 ];

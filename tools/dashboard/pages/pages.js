@@ -4,6 +4,7 @@ import { InstancePage } from './instance_page.js';
 import { InstancesPage } from './instances_page.js';
 import { NodePage } from './node_page.js';
 import { SitePage } from './site_page.js';
+import { SkillsPage } from './skills_page.js';
 import { TaskPage } from './task_page.js';
 import { TasksPage } from './tasks_page.js';
 import { TopicsPage } from './topics_page.js';
@@ -23,6 +24,7 @@ export const PAGES = {
   tasks: listOrOne(TasksPage, TaskPage),
   instances: listOrOne(InstancesPage, InstancePage),
   topics: TopicsPage,
+  skills: SkillsPage,
   events: EventsPage,
   plan: PlanPage,
   requests: RequestsPage,

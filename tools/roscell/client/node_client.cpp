@@ -150,6 +150,17 @@ json node_client::get(const std::string& path, const patience& how) const {
   return document;
 }
 
+std::string node_client::get_bytes(const std::string& path,
+                                   const patience& how) const {
+  auto waiting = waiting_for(how.limit);
+  waiting.cancel = how.cancel;
+  auto result = http_.request("GET", path, "", waiting);
+  const auto& reply = checked(result);
+  if (reply.status != status_ok)
+    throw refused(document_of(to_, reply));
+  return reply.body;
+}
+
 json node_client::post(const std::string& path, const std::string& body,
                        std::chrono::milliseconds limit) const {
   auto how = waiting_for(limit);

@@ -68,6 +68,9 @@ public:
   /// The JSON document at `path`.
   json get(const std::string& path, const patience& how = {}) const;
 
+  /// The bytes at `path`.
+  std::string get_bytes(const std::string& path, const patience& how) const;
+
   /// The reply to a request, waited for `limit`. An error reply is returned
   /// like any other.
   json post(const std::string& path, const std::string& body,

@@ -198,6 +198,23 @@ void add_files(CLI::App& command, node_options& options) {
                   "instances that are gone. The oldest goes first")
       ->option_text("BYTES [64MiB]");
   command
+      .add_option("--builds-bytes", options.builds_bytes,
+                  "Bound of the builds of skills that come from other nodes. "
+                  "What was not used for longest goes first")
+      ->option_text("BYTES [20GiB]");
+  command
+      .add_option("--registry-auth", config.registry_auth,
+                  "How to log in to registries of container images, in the "
+                  "form of Docker's config.json; others may not read it. "
+                  "Otherwise as the user of the engine does")
+      ->option_text("FILE");
+  command
+      .add_option("--skill-images", config.skill_images,
+                  "Images of skills that are kept though no container has "
+                  "them. The oldest go first")
+      ->check(CLI::Range(0, 10'000))
+      ->option_text("NUMBER [20]");
+  command
       .add_option("--history-age", options.history_age,
                   "The same in time: 12h, 30d")
       ->option_text("TIME [7d]");

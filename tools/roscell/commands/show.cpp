@@ -226,30 +226,49 @@ CLI::App* add_show_command(CLI::App& app, const char* name,
   return command;
 }
 
+namespace {
+
+void add_subject_command(CLI::App& app, const subject& what, const char* name,
+                         action& chosen) {
+  auto options = std::make_shared<show_options>();
+  auto* command =
+      add_show_command(app, name, what.description, what.footer, options);
+  add_table_options(*command, options->output, options->tables);
+  if (what.argument != nullptr)
+    command->add_option(what.argument, options->argument, "Only this one");
+  if (command->get_name() == "tasks")
+    command
+        ->add_flag("--history", options->history,
+                   "Show what has happened to TASK, in order")
+        ->needs(command->get_option("TASK"));
+  command->callback([&chosen, &what, options, command] {
+    // A command below it has been chosen already.
+    if (command->get_subcommands().empty())
+      chosen = [&what, options] { return show_subject(what, *options); };
+  });
+}
+
+/// What `skills` alone does, for who looks for it beside its other commands.
+void add_skill_list_command(CLI::App& skills, action& chosen) {
+  for (const auto& what : subjects)
+    if (skills.get_name() == what.name)
+      add_subject_command(skills, what, "list", chosen);
+}
+
+} // namespace
+
 void add_show_commands(CLI::App& app, action& chosen) {
   add_status_command(app, chosen);
-  for (const auto& what : subjects) {
-    auto options = std::make_shared<show_options>();
-    auto* command = add_show_command(app, what.name, what.description,
-                                     what.footer, options);
-    add_table_options(*command, options->output, options->tables);
-    if (what.argument != nullptr)
-      command->add_option(what.argument, options->argument, "Only this one");
-    if (command->get_name() == "tasks")
-      command
-          ->add_flag("--history", options->history,
-                     "Show what has happened to TASK, in order")
-          ->needs(command->get_option("TASK"));
-    command->callback([&chosen, &what, options, command] {
-      // A command below it has been chosen already.
-      if (command->get_subcommands().empty())
-        chosen = [&what, options] { return show_subject(what, *options); };
-    });
-  }
+  for (const auto& what : subjects)
+    add_subject_command(app, what, what.name, chosen);
   auto& skills = *app.get_subcommand("skills")->alias("skill");
   add_skill_show_command(skills, chosen);
   add_skill_new_command(skills, chosen);
   add_skill_check_command(skills, chosen);
+  add_skill_add_command(skills, chosen);
+  add_skill_remove_command(skills, chosen);
+  add_skill_pull_command(skills, chosen);
+  add_skill_list_command(skills, chosen);
   add_transfers_command(app, chosen);
 }
 

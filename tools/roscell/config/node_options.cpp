@@ -123,6 +123,8 @@ node_config to_config(const node_options& options) {
   config.data_dir = std::filesystem::absolute(config.data_dir);
   for (const auto& dir : options.skill_dirs)
     config.skill_dirs.push_back(std::filesystem::absolute(dir));
+  if (!config.registry_auth.empty())
+    config.registry_auth = std::filesystem::absolute(config.registry_auth);
   if (config.socket.empty())
     config.socket = config.data_dir / "node.sock";
   config.socket = std::filesystem::absolute(config.socket);
@@ -131,6 +133,8 @@ node_config to_config(const node_options& options) {
   config.log_bytes = bytes_of("--log-bytes", options.log_bytes, "4KiB", "1GiB");
   config.history_bytes =
       bytes_of("--history-bytes", options.history_bytes, "2MiB", "1024GiB");
+  config.builds_bytes =
+      bytes_of("--builds-bytes", options.builds_bytes, "1MiB", "1024GiB");
   config.history_age = history_age(options.history_age);
   return config;
 }

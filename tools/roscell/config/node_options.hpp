@@ -18,6 +18,7 @@ struct node_options {
   std::string interface; ///< Name or address; empty: to be asked.
   std::string log_bytes = "1MiB";
   std::string history_bytes = "64MiB";
+  std::string builds_bytes = "20GiB";
   std::string history_age = "7d";
   std::vector<std::string> labels; ///< "key=value"
   std::vector<std::filesystem::path> skill_dirs;

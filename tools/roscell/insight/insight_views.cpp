@@ -41,6 +41,14 @@ std::string peers_text(const cost_window& x) {
   return joined(words, ", ");
 }
 
+/// "0/1048576": sent to other nodes, and fetched from them.
+std::string builds_text(const cost_window& x) {
+  if (x.builds_sent_bytes + x.builds_received_bytes == 0)
+    return "-";
+  return rate_text(x.builds_sent_bytes, x) + "/"
+         + rate_text(x.builds_received_bytes, x);
+}
+
 std::vector<cell> row_of(const std::string& node, const cost_window& x) {
   double sent_bytes = 0;
   double received_bytes = 0;
@@ -57,7 +65,8 @@ std::vector<cell> row_of(const std::string& node, const cost_window& x) {
           written_a_day(x),
           rate_text(sent_bytes, x),
           rate_text(received_bytes, x),
-          peers_text(x)};
+          peers_text(x),
+          builds_text(x)};
 }
 
 } // namespace
@@ -71,7 +80,8 @@ std::string cost_view(const cost_report& report, const view_style& style) {
            {"WRITTEN A DAY", align::right},
            {"SENT (B/s)", align::right},
            {"RECEIVED (B/s)", align::right},
-           {"PEERS (B/s)", align::left, 2}},
+           {"PEERS (B/s)", align::left, 2},
+           {"BUILDS (B/s)", align::right, 3}},
           {}};
   std::string problems;
   for (const auto& node : report.nodes) {

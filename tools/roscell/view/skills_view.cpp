@@ -57,6 +57,32 @@ std::string short_version(const std::string& version) {
                                        : version;
 }
 
+std::string names_of(const std::vector<std::string>& nodes) {
+  return listed(std::set<std::string>{nodes.begin(), nodes.end()});
+}
+
+/// ", on its way to arm, 2 instances"
+std::string uses_of(const cell_build& x) {
+  return (x.coming_to.empty() ? "" : ", on its way to " + names_of(x.coming_to))
+         + (x.instances == 0
+                ? ""
+                : ", " + std::to_string(x.instances)
+                      + (x.instances == 1 ? " instance" : " instances"));
+}
+
+/// Those that come to each node that needs them, and who keeps them.
+std::string builds_view(const std::vector<cell_build>& builds) {
+  constexpr double bytes_of_mib = 1024 * 1024;
+  std::string text;
+  for (const auto& x : builds)
+    text += "of the cell: " + printable(x.skill.descriptor.operation) + " "
+            + printable(short_version(x.skill.version)) + ", build "
+            + x.build.hash.substr(0, short_hash) + ", "
+            + format_memory(static_cast<double>(x.build.bytes) / bytes_of_mib)
+            + ", kept on " + names_of(x.keepers) + uses_of(x) + "\n";
+  return text;
+}
+
 } // namespace
 
 std::string skills_view(const skill_list& skills, const view_style& style) {
@@ -96,7 +122,7 @@ std::string skills_view(const skill_list& skills, const view_style& style) {
          + (has_older ? "* has a newer build: this one is for steps that name "
                         "it\n"
                       : "")
-         + refused_view(skills.refused);
+         + builds_view(skills.builds) + refused_view(skills.refused);
 }
 
 } // namespace roscell::cli
