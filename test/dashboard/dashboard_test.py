@@ -175,13 +175,13 @@ class DashboardTest(Asking, KeepingPlace, MakingWay, unittest.TestCase):
     def test_it_is_whole_on_a_phone_a_tablet_and_at_twice_the_size(self):
         for width, height in ((360, 740), (820, 1180), (720, 450)):
             self.page.size(width, height)
-            for name in ("site", "tasks", "instances", "topics", "events", "plan", "requests"):
+            for name in ("site", "tasks", "instances", "topics", "skills", "events", "plan", "requests"):
                 self.page.open(f"#/{name}")
                 time.sleep(0.2)
                 self.assertEqual(self.page.js(reading.TOO_WIDE), [], f"{name} at {width}")
 
     def test_every_control_has_a_name(self):
-        for name in ("site", "tasks", "instances", "topics", "events", "plan", "requests"):
+        for name in ("site", "tasks", "instances", "topics", "skills", "events", "plan", "requests"):
             self.page.open(f"#/{name}")
             self.assertEqual(self.page.js(reading.NAMELESS), [], name)
 
@@ -221,7 +221,7 @@ class DashboardTest(Asking, KeepingPlace, MakingWay, unittest.TestCase):
     def test_nothing_comes_from_elsewhere_and_no_policy_is_broken(self):
         page = self.page
         page.complaints()
-        for name in ("site", "tasks", "instances", "topics", "events", "plan", "requests"):
+        for name in ("site", "tasks", "instances", "topics", "skills", "events", "plan", "requests"):
             page.open(f"#/{name}")
         origin = page.js("return location.origin")
         elsewhere = [x for x in page.js("return performance.getEntriesByType('resource').map((x) => x.name)")

@@ -225,6 +225,18 @@ delay_packets() {
   done
 }
 
+# shape_links RATE: what each host sends and gets is held to that, each way.
+shape_links() {
+  local n
+  for ((n = 1; n <= ${#hosts[@]}; ++n)); do
+    ip netns exec "${hosts[n - 1]}" tc qdisc add dev eth0 root \
+      tbf rate "$1" burst 64kb latency 50ms 2> /dev/null \
+      && tc qdisc add dev "$(host_link "$n")" root \
+        tbf rate "$1" burst 64kb latency 50ms 2> /dev/null \
+      || skip "this kernel cannot hold links to a rate"
+  done
+}
+
 lead_through_delay_line() {
   local n cables=() said=
   { : <> /dev/net/tun; } 2> /dev/null || skip "neither netem nor TAPs here"

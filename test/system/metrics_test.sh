@@ -188,7 +188,7 @@ test_a_cell_tells_what_each_of_its_nodes_costs() {
               | .[0].peer == "arm" and .[0].sent_bytes > 0'
   done
   to arm status --cost > "$scratch/table" || fail "no table"
-  has_line '^head  *minute .*  arm [0-9.]*/[0-9.]*$' "$scratch/table" \
+  has_line '^head  *minute .*  arm [0-9.]*/[0-9.]*  *-$' "$scratch/table" \
     || fail "$(cat "$scratch/table")"
   stop_node arm KILL
   await head '.event == "node_lost" and .subject == "arm"' > /dev/null

@@ -153,6 +153,34 @@ TEST_CASE_METHOD(membership_problem_test,
 }
 
 TEST_CASE_METHOD(membership_problem_test,
+                 "a member's engine gets images by its coordinator") {
+  const auto ask = [this] {
+    auto reply = time.ask<image_offered>(
+        node.membership, image_request{"debian:1", "amd64", "", {}});
+    site.pass(1s);
+    return *reply;
+  };
+  form_cell();
+  CHECK((*ask())->node == "arm-2");
+  REQUIRE(site.base.image_requests.size() == 1);
+  CHECK(site.base.image_requests[0].node == node.identity.name);
+  site.kill_coordinator();
+  site.pass(10s);
+  CHECK(to_failure(ask()->error()).code == error_code::unreachable);
+}
+
+TEST_CASE_METHOD(membership_problem_test,
+                 "a coordinator of an earlier version is asked for no image") {
+  site.base.build_key.clear();
+  form_cell();
+  auto reply = time.ask<image_offered>(
+      node.membership, image_request{"debian:1", "amd64", "", {}});
+  site.pass(1s);
+  CHECK(to_failure((*reply)->error()).code == error_code::conflict);
+  CHECK(site.base.image_requests.empty());
+}
+
+TEST_CASE_METHOD(membership_problem_test,
                  "a coordinator's refusal reaches the member's user as it is") {
   form_cell();
   site.base.answer = error_reply(

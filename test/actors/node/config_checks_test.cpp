@@ -11,11 +11,16 @@ using namespace roscell;
 namespace {
 
 chosen_runtime processes() {
-  return {"process", {}, false, {}, {}};
+  chosen_runtime result;
+  result.name = "process";
+  return result;
 }
 
 chosen_runtime docker() {
-  return {"docker", "/var/run/docker.sock", false, {}, {}};
+  chosen_runtime result;
+  result.name = "docker";
+  result.socket = "/var/run/docker.sock";
+  return result;
 }
 
 std::string problem_with(const std::string& line,

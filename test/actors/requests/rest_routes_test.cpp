@@ -181,4 +181,74 @@ TEST_CASE("A refusal's status tells who has to act", "[rest_routes]") {
   CHECK(http_status(error_code::internal) == 500);
 }
 
+namespace {
+
+const std::string some_hash(64, 'a');
+
+http_request about_build(const std::string& what,
+                         const std::map<std::string, std::string>& query = {},
+                         const std::string& method = "GET") {
+  auto result = get("/v1/builds/" + some_hash + what, query);
+  result.method = method;
+  return result;
+}
+
+/// What is asked of the store of builds; nothing if it is something else.
+template <class T>
+std::optional<T> asked_of_store(const http_request& request) {
+  const auto route = route_of(request);
+  const auto* x = std::get_if<build_request>(&route);
+  if (x == nullptr || !std::holds_alternative<T>(*x))
+    return std::nullopt;
+  return std::get<T>(*x);
+}
+
+} // namespace
+
+TEST_CASE("What is here of a build, its manifest and its pieces are below it",
+          "[rest_routes]") {
+  CHECK_FALSE(asked_of_store<build_query>(about_build(""))->wait);
+  const auto more =
+      asked_of_store<build_query>(about_build("", {{"beyond", "3"}}));
+  REQUIRE(more);
+  CHECK(more->wait);
+  CHECK(more->beyond == 3);
+  CHECK(asked_of_store<build_query>(about_build("", {{"beyond", "-1"}}))->wait);
+  CHECK(asked_of_store<piece_query>(about_build("/manifest"))->piece == -1);
+  CHECK(asked_of_store<piece_query>(about_build("/pieces/7"))->piece == 7);
+}
+
+TEST_CASE("A build is given to a node with its manifest, then in pieces",
+          "[rest_routes]") {
+  auto piece = about_build("/pieces/7", {}, "POST");
+  piece.body = "bytes";
+  const auto stored = asked_of_store<store_piece>(piece);
+  REQUIRE(stored);
+  CHECK(stored->piece == 7);
+  CHECK(stored->bytes == "bytes");
+  auto manifest = about_build(
+      "/manifest", {{"manifest", some_hash}, {"bytes", "12"}}, "POST");
+  manifest.body = "{}";
+  const auto offered = asked_of_store<offer_build>(manifest);
+  REQUIRE(offered);
+  CHECK(offered->name.bytes == 12);
+  CHECK(offered->manifest == "{}");
+}
+
+TEST_CASE("A build is asked for by its whole hash and by whole numbers",
+          "[rest_routes]") {
+  for (const auto* hash : {"aa", "../../etc", "AAAA"})
+    CHECK(refused(get(std::string{"/v1/builds/"} + hash))
+          == error_code::schema_violation);
+  for (const auto* piece : {"-1", "x", "1x", "", "99999999999999999999"})
+    CHECK(refused(about_build(std::string{"/pieces/"} + piece))
+          == error_code::schema_violation);
+  CHECK(refused(about_build("", {{"beyond", "-2"}}))
+        == error_code::schema_violation);
+  CHECK(refused(about_build("/manifest", {{"bytes", "12"}}, "POST"))
+        == error_code::schema_violation);
+  CHECK(refused(about_build("/else")) != error_code{});
+  CHECK(refused(about_build("", {}, "POST")) != error_code{});
+}
+
 } // namespace roscell::test

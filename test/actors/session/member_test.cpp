@@ -177,6 +177,17 @@ TEST_CASE_METHOD(member_test, "nothing is told of a node that has not "
   CHECK(to_failure((*reply)->error()).code == error_code::unreachable);
 }
 
+TEST_CASE_METHOD(member_test, "an image is for the node whose session it is") {
+  const auto request_of_another =
+      message_json(image_request{"debian:1", "amd64", "arm-2", {}});
+  request(1, registration());
+  request(2, request_of_another);
+  REQUIRE(heard.size() == 2);
+  CHECK(heard[1].body["type"] == "image_offered");
+  REQUIRE(site.base.image_requests.size() == 1);
+  CHECK(site.base.image_requests[0].node == "arm-1");
+}
+
 TEST_CASE_METHOD(member_test, "heartbeats are acked and keep a member alive") {
   request(1, registration());
   for (auto i = 0; i < 10; ++i) {

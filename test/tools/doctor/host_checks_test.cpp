@@ -58,9 +58,9 @@ TEST_CASE("an engine is broken only where it was asked for", "[doctor]") {
       edge_error{error_code::unauthorized, "no permission", ""}};
   const asked_engine none{"/run/podman/podman.sock", false,
                           edge_error{error_code::unreachable, "none", ""}};
-  const asked_engine good{
-      "/run/user/7/podman/podman.sock", true,
-      found_engine{"/run/user/7/podman/podman.sock", "podman", "", true}};
+  const asked_engine good{"/run/user/7/podman/podman.sock", true,
+                          found_engine{"/run/user/7/podman/podman.sock",
+                                       "podman", "", "1.41", true}};
   CHECK(judge_engines("auto", {closed, none}, true)[0].how
         == judgement::warning);
   CHECK(judge_engines("docker", {closed}, true)[0].how == judgement::broken);

@@ -34,12 +34,13 @@ TEST_CASE("Each window of a node's cost is a row of rates", "[tools]") {
   const auto text = cost_view({{busy_node()}}, {});
   CHECK(cells_in(text)
         == "NODE|WINDOW|SPAN|CPU (%)|PSS|WRITTEN A DAY|SENT (B/s)|"
-           "RECEIVED (B/s)|PEERS (B/s)\n"
+           "RECEIVED (B/s)|PEERS (B/s)|BUILDS (B/s)\n"
            "base|minute|1m15s|0.2|8.1 MiB|844 KiB|20.2|"
-           "18.9|arm 19.2/18.9, leg 1/0\n"
-           "base|day|1d01h|0.1|8 MiB|0 B|0|0|-\n");
+           "18.9|arm 19.2/18.9, leg 1/0|-\n"
+           "base|day|1d01h|0.1|8 MiB|0 B|0|0|-|-\n");
   CHECK(test::right_aligned(text)
-        == "SPAN|CPU (%)|PSS|WRITTEN A DAY|SENT (B/s)|RECEIVED (B/s)");
+        == "SPAN|CPU (%)|PSS|WRITTEN A DAY|SENT (B/s)|RECEIVED (B/s)|"
+           "BUILDS (B/s)");
 }
 
 TEST_CASE("Before any time has passed there is no rate", "[tools]") {

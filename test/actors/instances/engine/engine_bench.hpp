@@ -125,6 +125,7 @@ struct engine_bench : runtime_bench<engine_runtime_actor> {
       };
     });
     folder.write("skill/bin/run", "#!/bin/sh\n", true);
+    script.on("GET /images/base:1/json", 200);
     begin_engine();
     begin_runtime();
     script.await_listing();
