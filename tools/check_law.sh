@@ -2,7 +2,7 @@
 # The dependency law: messages <- actors <- tools; dds is shared by actors and
 # skills, which depend on nothing else of ours but the public headers in
 # include, which depend on nothing of ours; inside actors edge <- core <- session, instances, placement <-
-# cell, membership <- requests <- node. Checked in the sources and in what the
+# builds (which knows instances) <- cell, membership <- requests <- node. Checked in the sources and in what the
 # programs load; and that no folder is crowded.
 # Usage: tools/check_law.sh [BUILD_DIR]
 set -uo pipefail
@@ -28,12 +28,13 @@ refuse messages 'dds/|actors/|schemas/|skills/|tools/|test/'
 refuse schemas 'actors/|skills/|tools/|test/'
 refuse actors 'skills/|roscell/(skill|ros2)|tools/|test/'
 # The edge knows no actor.
-packages='session|instances|placement|cell|membership|requests|node'
+packages='session|instances|placement|builds|cell|membership|requests|node'
 refuse actors/edge "caf/|actors/($packages)/|actors/core/|actors/precompiled"
 refuse actors/core "actors/($packages)/"
 refuse actors/session 'actors/(instances|placement|cell|membership|requests|node)/'
-refuse actors/instances 'actors/(session|placement|cell|membership|requests|node)/'
-refuse actors/placement 'actors/(session|instances|cell|membership|requests|node)/'
+refuse actors/instances 'actors/(session|placement|builds|cell|membership|requests|node)/'
+refuse actors/placement 'actors/(session|instances|builds|cell|membership|requests|node)/'
+refuse actors/builds 'actors/(session|placement|cell|membership|requests|node)/'
 refuse actors/cell 'actors/(instances|membership|requests|node)/'
 refuse actors/membership 'actors/(instances|placement|cell|requests|node)/'
 refuse actors/requests 'actors/(session|instances|cell|membership|node)/'

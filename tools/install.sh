@@ -21,7 +21,7 @@ packages=(
   g++ cmake ninja-build ccache pkg-config python3
   libcaf-dev libfastrtps-dev nlohmann-json3-dev libvalijson-dev
   libboost-dev libssl-dev libsqlite3-dev libcli11-dev libspdlog-dev
-  libncurses-dev libedit-dev
+  libncurses-dev libedit-dev libarchive-dev
   catch2
   # For the skills that look at images. OpenCV's parts instead of all of it.
   libapriltag-dev libeigen3-dev libpng-dev libturbojpeg0-dev libyaml-cpp-dev
@@ -46,6 +46,8 @@ if [[ "${1:-}" == --with-tests ]]; then
     # The other engine. runc, because crun refuses hosts with both versions of
     # cgroups; catatonit holds the namespaces of a user's own Podman.
     podman runc netavark catatonit
+    # A registry of images, and who may use it.
+    docker-registry apache2-utils
   )
 fi
 if [[ "${1:-}" == --with-tests || "${1:-}" == --containers ]]; then

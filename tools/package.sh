@@ -62,7 +62,7 @@ if [[ -n $build ]]; then
   exit
 fi
 tools/install.sh --to-package || exit 1
-build roscell roscell_texts instance_shim skills/all render_scenes \
+build roscell roscell_texts instance_shim unpack_skill skills/all render_scenes \
   compare_poses || exit 1
 build=$PWD/build/release
 pack
