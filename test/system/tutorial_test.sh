@@ -50,7 +50,8 @@ test_the_tutorial_does_what_it_says() {
   own_tree
   play docs/tutorial.md --alike head,arm \
     --instead "ninja -C build/release roscell=ninja -C build/release -n roscell" \
-    --instead "roscell run $scratch/tut/task.yaml=roscell run $scratch/tut/task.yaml 2> $scratch/busy"
+    --instead "roscell run $scratch/tut/task.yaml=roscell run $scratch/tut/task.yaml 2> $scratch/busy" \
+    --instead "roscell run $scratch/tut/second.yaml=roscell run $scratch/tut/second.yaml 2> $scratch/busy"
   [[ ! -e skills/shout ]] || fail "it left something in the sources"
 }
 
