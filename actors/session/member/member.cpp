@@ -171,6 +171,32 @@ void take_over(self_pointer self, session_admitted accepted,
   set_timer(self);
 }
 
+caf::result<resource_report> report_resources(self_pointer self,
+                                              const resource_query& x) {
+  return ask_node<resource_report>(self, x, limits::session::resource_query,
+                                   [self](resource_report& report) {
+                                     report.resources.name =
+                                         self->state.peer.name;
+                                   });
+}
+
+caf::result<instance_deployed> deploy(self_pointer self,
+                                      const instance_deployment& x) {
+  return ask_node<instance_deployed>(
+      self, x, limits::task::deployment, [self](instance_deployed& reply) {
+        reply.instance.node = self->state.peer.name;
+      });
+}
+
+caf::result<kept_logs> list_kept_logs(self_pointer self,
+                                      const kept_logs_query& x) {
+  return ask_node<kept_logs>(self, x, limits::history::member_list,
+                             [self](kept_logs& reply) {
+                               for (auto& log : reply.logs)
+                                 log.node = self->state.peer.name;
+                             });
+}
+
 } // namespace
 
 member_actor::behavior_type member(self_pointer self, session_admitted accepted,
@@ -178,13 +204,7 @@ member_actor::behavior_type member(self_pointer self, session_admitted accepted,
   take_over(self, std::move(accepted), std::move(coordinator));
   return {
       [self](const state_query&) { return describe(self); },
-      [self](const resource_query& x) {
-        return ask_node<resource_report>(
-            self, x, limits::session::resource_query,
-            [self](resource_report& report) {
-              report.resources.name = self->state.peer.name;
-            });
-      },
+      [self](const resource_query& x) { return report_resources(self, x); },
       [self](const figures_query& x) {
         return ask_node<figures_report>(self, x, limits::session::metrics);
       },
@@ -192,13 +212,7 @@ member_actor::behavior_type member(self_pointer self, session_admitted accepted,
         return ask_node<instances_reserved>(self, x,
                                             limits::session::resource_query);
       },
-      [self](const instance_deployment& x) {
-        return ask_node<instance_deployed>(self, x, limits::task::deployment,
-                                           [self](instance_deployed& reply) {
-                                             reply.instance.node =
-                                                 self->state.peer.name;
-                                           });
-      },
+      [self](const instance_deployment& x) { return deploy(self, x); },
       [self](const instance_removal& x) {
         return ask_node<instances_removed>(self, x, limits::task::removal);
       },
@@ -225,13 +239,7 @@ member_actor::behavior_type member(self_pointer self, session_admitted accepted,
                        std::chrono::milliseconds{0}, limits::log::wait);
         return ask_node<log_excerpt>(self, x, wait + limits::log::session);
       },
-      [self](const kept_logs_query& x) {
-        return ask_node<kept_logs>(self, x, limits::history::member_list,
-                                   [self](kept_logs& reply) {
-                                     for (auto& log : reply.logs)
-                                       log.node = self->state.peer.name;
-                                   });
-      },
+      [self](const kept_logs_query& x) { return list_kept_logs(self, x); },
       [self](const frame_received& frame) { on_frame(self, frame); },
       [self](const heartbeat_received& heartbeat) {
         on_heartbeat(self, heartbeat);

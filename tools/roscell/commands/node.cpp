@@ -175,6 +175,27 @@ void add_resources(CLI::App& command, node_options& options) {
       ->allow_extra_args(false);
 }
 
+/// What comes from other nodes and registries.
+void add_builds(CLI::App& command, node_options& options) {
+  command
+      .add_option("--builds-bytes", options.builds_bytes,
+                  "Bound of the builds of skills that come from other nodes. "
+                  "What was not used for longest goes first")
+      ->option_text("BYTES [20GiB]");
+  command
+      .add_option("--registry-auth", options.config.registry_auth,
+                  "How to log in to registries of container images, in the "
+                  "form of Docker's config.json; others may not read it. "
+                  "Otherwise as the user of the engine does")
+      ->option_text("FILE");
+  command
+      .add_option("--skill-images", options.config.skill_images,
+                  "Images of skills that are kept though no container has "
+                  "them. The oldest go first")
+      ->check(CLI::Range(0, 10'000))
+      ->option_text("NUMBER [20]");
+}
+
 void add_files(CLI::App& command, node_options& options) {
   auto& config = options.config;
   command
@@ -197,23 +218,7 @@ void add_files(CLI::App& command, node_options& options) {
                   "Bound of what is kept of the past: events, and logs of "
                   "instances that are gone. The oldest goes first")
       ->option_text("BYTES [64MiB]");
-  command
-      .add_option("--builds-bytes", options.builds_bytes,
-                  "Bound of the builds of skills that come from other nodes. "
-                  "What was not used for longest goes first")
-      ->option_text("BYTES [20GiB]");
-  command
-      .add_option("--registry-auth", config.registry_auth,
-                  "How to log in to registries of container images, in the "
-                  "form of Docker's config.json; others may not read it. "
-                  "Otherwise as the user of the engine does")
-      ->option_text("FILE");
-  command
-      .add_option("--skill-images", config.skill_images,
-                  "Images of skills that are kept though no container has "
-                  "them. The oldest go first")
-      ->check(CLI::Range(0, 10'000))
-      ->option_text("NUMBER [20]");
+  add_builds(command, options);
   command
       .add_option("--history-age", options.history_age,
                   "The same in time: 12h, 30d")
