@@ -3,13 +3,10 @@
 #include "actors/builds/limits.hpp"
 #include "actors/edge/disk/build_manifest.hpp"
 #include "actors/edge/disk/build_pieces.hpp"
-#include "actors/edge/disk/limits.hpp"
-#include "actors/edge/disk/small_file.hpp"
-#include "actors/edge/io/crypto.hpp"
-#include "schemas/document.hpp"
+#include "actors/edge/limit_units.hpp"
 
 #include <algorithm>
-#include <chrono>
+#include <array>
 #include <system_error>
 
 namespace roscell {
@@ -18,63 +15,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* manifest_suffix = ".manifest";
-constexpr const char* about_suffix = ".json";
-
-edge_error not_here(const std::string& hash) {
-  return {error_code::conflict,
-          "the build " + hash.substr(0, limits::build::shown_digits)
-              + " is not on this node",
-          ""};
-}
-
-edge_error cannot_write(const fs::path& path, const std::string& why) {
-  return {error_code::internal, "cannot write '" + path.string() + "': " + why,
-          ""};
-}
-
-bool is_hash(const std::string& text) {
-  constexpr size_t digits = 64;
-  return text.size() == digits
-         && text.find_first_not_of("0123456789abcdef") == std::string::npos;
-}
-
-/// What `write_about` has written; nothing if it cannot be read.
-std::optional<json> read_about(const fs::path& file) {
-  const auto text = read_small_file(file, limits::build::about_bytes);
-  if (!text)
-    return std::nullopt;
-  auto document = parse_document(*text);
-  auto* result = std::get_if<json>(&document);
-  return result != nullptr && result->is_object()
-             ? std::optional{std::move(*result)}
-             : std::nullopt;
-}
-
-stored_build from_about(const std::string& hash, const json& about) {
-  stored_build result;
-  result.name.hash = hash;
-  result.name.manifest = about.value("manifest", std::string{});
-  result.name.bytes = about.value("bytes", int64_t{0});
-  result.cell = about.value("cell", std::string{});
-  result.pinned = about.value("pinned", false);
-  result.used_unix_ms = about.value("used_unix_ms", int64_t{0});
-  return result;
-}
+constexpr std::array<const char*, 3> places{"skills", "kept", "unfinished"};
 
 } // namespace
 
 build_store::build_store(fs::path folder, uint64_t most_bytes,
                          std::function<bool(const fs::path&)> runs_here)
     : folder_(std::move(folder)), most_bytes_(most_bytes),
-      runs_here_(std::move(runs_here)) {
-  std::error_code error;
-  for (const auto* name : {"skills", "kept", "unfinished", "about"})
-    fs::create_directories(folder_ / name, error);
-  for (fs::directory_iterator i{folder_ / "about", error}, end;
-       !error && i != end; i.increment(error))
-    if (i->path().extension() == about_suffix && is_hash(i->path().stem()))
-      take_up(i->path().stem().string());
+      runs_here_(std::move(runs_here)), records_(folder_ / "about") {
+  std::error_code ignored;
+  for (const auto* place : places)
+    fs::create_directories(folder_ / place, ignored);
+  for (auto& x : records_.read_all())
+    take_up(std::move(x));
+  remove_leftovers();
 }
 
 fs::path build_store::skills_in(const fs::path& folder) {
@@ -87,29 +41,34 @@ fs::path build_store::kept_in(const fs::path& folder) {
 
 /// After a start: what is whole was checked before it came to its place, and
 /// of the others each piece is.
-void build_store::take_up(const std::string& hash) {
-  const auto known = read_about(about(hash, about_suffix));
-  if (!known)
-    return;
-  try {
-    auto build = from_about(hash, *known);
-    std::error_code error;
-    build.used = fs::is_directory(skills_in(folder_) / hash, error);
-    build.whole =
-        build.used || fs::is_directory(kept_in(folder_) / hash, error);
-    builds_[hash] = build;
-  } catch (const json::exception&) {
-    return;
-  }
-  auto& build = builds_[hash];
-  const auto manifest = manifest_of(hash);
-  if (std::holds_alternative<edge_error>(manifest)) {
-    drop(hash);
-    return;
-  }
+void build_store::take_up(stored_build build) {
+  const auto& hash = build.name.hash;
+  std::error_code error;
+  build.used = fs::is_directory(skills_in(folder_) / hash, error);
+  build.whole = build.used || fs::is_directory(kept_in(folder_) / hash, error);
+  const auto manifest = records_.manifest_of(build.name);
+  if (std::holds_alternative<edge_error>(manifest))
+    return records_.forget(hash);
   const auto& pieces = *std::get<const build_manifest*>(manifest);
   build.pieces = build.whole ? std::vector<bool>(pieces.pieces.size(), true)
                              : find_pieces(place_of(build), pieces);
+  builds_[hash] = std::move(build);
+}
+
+/// What no record tells of: a build that was being dropped when the power went
+/// would be taken for a skill of this node.
+void build_store::remove_leftovers() {
+  std::error_code error;
+  std::vector<fs::path> gone;
+  for (const auto* place : places)
+    for (fs::directory_iterator i{folder_ / place, error}, end;
+         !error && i != end; i.increment(error)) {
+      const auto* known = find(i->path().filename().string());
+      if (known == nullptr || place_of(*known) != i->path())
+        gone.push_back(i->path());
+    }
+  for (const auto& x : gone)
+    fs::remove_all(x, error);
 }
 
 edge_result<stored_build>
@@ -117,13 +76,17 @@ build_store::offer(const build_name& name, const std::string& manifest,
                    const std::string& cell, const std::set<std::string>& in_use,
                    int64_t now_unix_ms) {
   if (const auto* known = find(name.hash);
-      known != nullptr && known->name.manifest == name.manifest) {
+      known != nullptr
+      && (known->whole || known->name.manifest == name.manifest)) {
     touch(name.hash, now_unix_ms);
     return builds_.at(name.hash);
   }
   const auto read = parse_manifest(manifest, name);
   if (const auto* why = std::get_if<edge_error>(&read))
     return *why;
+  // A part of it that came by another text of its manifest.
+  if (auto why = drop(name.hash))
+    return std::move(*why);
   for (const auto& hash : in_use)
     touch(hash, now_unix_ms);
   if (auto why = make_room(static_cast<uint64_t>(name.bytes), in_use))
@@ -137,10 +100,7 @@ build_store::offer(const build_name& name, const std::string& manifest,
     fs::remove_all(place_of(build), ignored);
     return std::move(*why);
   }
-  const auto file = about(name.hash, manifest_suffix);
-  if (const auto why = write_lasting(file, manifest); !why.empty())
-    return cannot_write(file, why);
-  if (auto why = write_about(build))
+  if (auto why = records_.write(build, manifest))
     return std::move(*why);
   auto& stored = builds_[name.hash] = build;
   if (content.pieces.empty())
@@ -180,10 +140,7 @@ build_store::take_whole(const fs::path& from, stored_build build,
     return std::move(*why);
   if (auto why = make_room(static_cast<uint64_t>(name.bytes), in_use))
     return std::move(*why);
-  const auto file = about(name.hash, manifest_suffix);
-  if (const auto why = write_lasting(file, manifest); !why.empty())
-    return cannot_write(file, why);
-  if (auto why = write_about(build))
+  if (auto why = records_.write(build, manifest))
     return std::move(*why);
   build.whole = true;
   build.pieces.assign(std::get<build_manifest>(read).pieces.size(), true);
@@ -203,7 +160,7 @@ edge_result<stored_build> build_store::write(const std::string& hash,
   auto& build = found->second;
   if (build.whole)
     return build;
-  const auto manifest = manifest_of(hash);
+  const auto manifest = records_.manifest_of(build.name);
   if (const auto* why = std::get_if<edge_error>(&manifest))
     return *why;
   const auto& content = *std::get<const build_manifest*>(manifest);
@@ -223,11 +180,7 @@ const stored_build* build_store::find(const std::string& hash) const {
 
 edge_result<std::string>
 build_store::manifest_text(const std::string& hash) const {
-  auto text = read_small_file(about(hash, manifest_suffix),
-                              limits::build::manifest_bytes);
-  if (find(hash) == nullptr || !text)
-    return not_here(hash);
-  return std::move(*text);
+  return find(hash) == nullptr ? not_here(hash) : records_.manifest_text(hash);
 }
 
 edge_result<std::string> build_store::read(const std::string& hash,
@@ -236,7 +189,7 @@ edge_result<std::string> build_store::read(const std::string& hash,
   if (build == nullptr || piece >= build->pieces.size()
       || !build->pieces[piece])
     return not_here(hash);
-  const auto manifest = manifest_of(hash);
+  const auto manifest = records_.manifest_of(build->name);
   if (const auto* why = std::get_if<edge_error>(&manifest))
     return *why;
   return read_piece(place_of(*build),
@@ -254,7 +207,7 @@ std::optional<edge_error> build_store::pin(const std::string& hash, bool pinned,
   build.pinned = pinned;
   if (build.cell.empty())
     build.cell = cell;
-  return write_about(build);
+  return records_.write(build);
 }
 
 edge_result<stored_build> build_store::use(const std::string& hash,
@@ -282,7 +235,7 @@ void build_store::touch(const std::string& hash, int64_t now_unix_ms) {
     return;
   found->second.used_unix_ms = now_unix_ms;
   // Where it cannot be written the order of what goes is that of before.
-  write_about(found->second);
+  records_.write(found->second);
 }
 
 std::optional<edge_error> build_store::drop(const std::string& hash) {
@@ -291,13 +244,12 @@ std::optional<edge_error> build_store::drop(const std::string& hash) {
     return std::nullopt;
   std::error_code error;
   // First what makes it a build, so that none is left with half of its files.
-  fs::remove(about(hash, about_suffix), error);
+  records_.forget(hash);
   const auto place = place_of(found->second);
   fs::remove_all(place, error);
   if (error)
     return cannot_write(place, error.message());
-  fs::remove(about(hash, manifest_suffix), error);
-  manifests_.remove_if([&](const auto& x) { return x.first == hash; });
+  records_.remove_manifest(hash);
   builds_.erase(found);
   return std::nullopt;
 }
@@ -321,10 +273,6 @@ uint64_t build_store::bytes() const {
   for (const auto& [hash, build] : builds_)
     result += static_cast<uint64_t>(build.name.bytes);
   return result;
-}
-
-fs::path build_store::about(const std::string& hash, const char* what) const {
-  return folder_ / "about" / (hash + what);
 }
 
 fs::path build_store::place_of(const stored_build& build) const {
@@ -360,36 +308,6 @@ build_store::make_room(uint64_t bytes, const std::set<std::string>& in_use) {
       return why;
   }
   return std::nullopt;
-}
-
-std::optional<edge_error>
-build_store::write_about(const stored_build& build) const {
-  const json text{{"manifest", build.name.manifest},
-                  {"bytes", build.name.bytes},
-                  {"cell", build.cell},
-                  {"pinned", build.pinned},
-                  {"used_unix_ms", build.used_unix_ms}};
-  const auto file = about(build.name.hash, about_suffix);
-  const auto why = write_lasting(file, text.dump());
-  return why.empty() ? std::nullopt : std::optional{cannot_write(file, why)};
-}
-
-edge_result<const build_manifest*>
-build_store::manifest_of(const std::string& hash) {
-  for (const auto& x : manifests_)
-    if (x.first == hash)
-      return &x.second;
-  const auto text = manifest_text(hash);
-  if (const auto* why = std::get_if<edge_error>(&text))
-    return *why;
-  auto read =
-      parse_manifest(std::get<std::string>(text), builds_.at(hash).name);
-  if (const auto* why = std::get_if<edge_error>(&read))
-    return *why;
-  manifests_.emplace_front(hash, std::get<build_manifest>(std::move(read)));
-  if (manifests_.size() > limits::build::manifests_in_memory)
-    manifests_.pop_back();
-  return &manifests_.front().second;
 }
 
 /// It comes to its place by a rename, so that it is there whole or not at all.

@@ -1,32 +1,18 @@
 #pragma once
 
-#include "actors/edge/io/edge_error.hpp"
-#include "messages/build.hpp"
+#include "actors/builds/build_records.hpp"
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <list>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace roscell {
-
-/// A build that is on this node's disk, or on its way there.
-struct stored_build {
-  build_name name;
-  std::vector<bool> pieces; ///< Which are here.
-  bool whole = false;       ///< All are, and have been checked together.
-  std::string cell;         ///< For which it was fetched.
-  bool used = false;        ///< Of one that is whole: it is a skill here.
-  bool pinned = false;      ///< The cell counts on it: it never goes for room.
-  int64_t used_unix_ms = 0; ///< When it was asked for last.
-};
 
 /// The builds that a node has of its cell, in its data directory, by their
 /// hashes. Nothing of a build can be executed, or is taken for a skill, before
@@ -36,7 +22,7 @@ struct stored_build {
 ///     FOLDER/kept/HASH       a whole build, of a skill or an image
 ///     FOLDER/skills/HASH     one that was used here since: a skill folder
 ///     FOLDER/unfinished/HASH one on its way
-///     FOLDER/about/HASH.manifest, HASH.json
+///     FOLDER/about           what is written of each: build_records
 class build_store {
 public:
   /// @param most_bytes of all builds together; what was not used for longest
@@ -103,16 +89,14 @@ public:
   uint64_t bytes() const;
 
 private:
-  std::filesystem::path about(const std::string& hash, const char* what) const;
-  void take_up(const std::string& hash);
+  void take_up(stored_build build);
+  void remove_leftovers();
   std::optional<edge_error> make_room(uint64_t bytes,
                                       const std::set<std::string>& in_use);
-  std::optional<edge_error> write_about(const stored_build& build) const;
   edge_result<stored_build> take_whole(const std::filesystem::path& from,
                                        stored_build build,
                                        const std::string& manifest,
                                        const std::set<std::string>& in_use);
-  edge_result<const build_manifest*> manifest_of(const std::string& hash);
   edge_result<stored_build> finish(stored_build& build,
                                    const build_manifest& manifest);
   edge_result<stored_build> move_to_place(stored_build& build,
@@ -121,9 +105,8 @@ private:
   std::filesystem::path folder_;
   uint64_t most_bytes_;
   std::function<bool(const std::filesystem::path&)> runs_here_;
+  build_records records_;
   std::map<std::string, stored_build> builds_;
-  /// The manifests that were used last, the newest first.
-  std::list<std::pair<std::string, build_manifest>> manifests_;
 };
 
 } // namespace roscell

@@ -2,6 +2,7 @@
 
 #include "actors/edge/disk/build_manifest.hpp"
 #include "actors/edge/disk/build_pieces.hpp"
+#include "actors/edge/io/crypto.hpp"
 #include "test/actors/edge/process/supervision_fixture.hpp"
 
 #include <string>
@@ -101,6 +102,39 @@ TEST_CASE_METHOD(store_fixture, "what has come is found again after a start",
         == std::vector<bool>{false, false, true, false});
   CHECK(value_of(store.read(part.hash(), 2)) == part.piece(2));
   CHECK(error_of(store.read(part.hash(), 1)).code == error_code::conflict);
+}
+
+TEST_CASE_METHOD(
+    store_fixture,
+    "what no record tells of is gone after a start, and is no skill",
+    "[builds]") {
+  const sample_build x{'a', 1};
+  {
+    auto store = open();
+    bring_whole(store, x);
+    value_of(store.use(x.hash(), 1));
+  }
+  // The power went while it was being dropped, or put to its place.
+  fs::remove(data.path() / "about" / (x.hash() + ".json"));
+  data.write("kept/part/skill.json", "{}");
+  data.write("unfinished/part/data", "x");
+  const auto store = open();
+  CHECK(store.builds().empty());
+  for (const auto* place : {"skills", "kept", "unfinished"})
+    CHECK(fs::is_empty(data.path() / place));
+}
+
+TEST_CASE_METHOD(store_fixture,
+                 "another text of its manifest leaves a build that is whole",
+                 "[builds]") {
+  const sample_build x{'a', 1};
+  auto store = open();
+  bring_whole(store, x);
+  auto name = x.described.name;
+  const auto text = x.described.text + "\n";
+  name.manifest = sha256_hex(text);
+  CHECK(value_of(store.offer(name, text, "line", {}, 2)).whole);
+  CHECK(value_of(store.read(x.hash(), 0)) == x.piece(0));
 }
 
 TEST_CASE_METHOD(store_fixture, "what was not used for longest goes for room",
