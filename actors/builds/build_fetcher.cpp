@@ -71,6 +71,14 @@ void publish_lost(build_fetcher_self self, const std::string& hash,
       events::build_source_lost, hash, {{"source", source}, {"reason", why}});
 }
 
+/// Those of the table that are lost since there were `before` of them.
+void publish_losses(build_fetcher_self self, const std::string& hash,
+                    size_t before) {
+  const auto& lost = fetch_of(self, hash)->table->lost();
+  for (auto i = before; i < lost.size(); ++i)
+    publish_lost(self, hash, lost[i].source, lost[i].why);
+}
+
 void strand(build_fetcher_self self, const std::string& hash) {
   const auto& fetch = *fetch_of(self, hash);
   std::string why = fetch.last_problem;
@@ -93,13 +101,14 @@ void ask(build_fetcher_self self, const asked_source& what,
     return;
   const auto number = ++st.last_question;
   st.questions[number] = what;
+  st.questions[number].at = self->clock().now();
   st.config.ask(self,
                 {number, *source, "/v1/builds/" + what.hash + target, timeout});
 }
 
 void ask_what_is_there(build_fetcher_self self, const std::string& hash,
                        const std::string& source, int64_t beyond) {
-  ask(self, {hash, source, asked_kind::pieces_there, 0},
+  ask(self, {hash, source, asked_kind::pieces_there, 0, beyond, {}},
       "?beyond=" + std::to_string(beyond), limits::build::more_call);
 }
 
@@ -173,6 +182,9 @@ void take_what_is_there(build_fetcher_self self, const asked_source& asked,
     return table.drop_source(asked.source, "it does not say what it has");
   table.announce(asked.source, *pieces);
   const auto count = std::count(pieces->begin(), pieces->end(), true);
+  if (count <= asked.beyond
+      && self->clock().now() - asked.at < limits::build::least_wait)
+    return table.drop_source(asked.source, "it does not wait for more");
   if (static_cast<size_t>(count) < pieces->size())
     ask_what_is_there(self, asked.hash, asked.source, count);
 }
@@ -215,8 +227,9 @@ void take_piece(build_fetcher_self self, const asked_source& asked,
             const auto what = to_failure(why);
             if (what.code != error_code::schema_violation)
               return end_fetch(self, hash, why);
+            const auto lost = fetch->table->lost().size();
             fetch->table->blame(question, what.message);
-            publish_lost(self, hash, question.source, what.message);
+            publish_losses(self, hash, lost);
             pump(self, hash);
           });
 }
@@ -243,8 +256,7 @@ void on_no_answer(build_fetcher_self self, const asked_source& asked,
     fetch.table->fail({asked.piece, asked.source}, why);
   else
     fetch.table->drop_source(asked.source, why);
-  if (fetch.table->lost().size() > lost)
-    publish_lost(self, asked.hash, asked.source, why);
+  publish_losses(self, asked.hash, lost);
   pump(self, asked.hash);
 }
 
@@ -271,7 +283,9 @@ void on_answer(build_fetcher_self self, const source_answered& x) {
     return take_manifest(self, asked, x.body);
   if (asked.what == asked_kind::piece)
     return take_piece(self, asked, x.body);
+  const auto lost = fetch->table->lost().size();
   take_what_is_there(self, asked, x.body);
+  publish_losses(self, asked.hash, lost);
   pump(self, asked.hash);
 }
 

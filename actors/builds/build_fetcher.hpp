@@ -6,6 +6,7 @@
 
 #include <caf/typed_response_promise.hpp>
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -51,6 +52,8 @@ struct asked_source {
   std::string source; ///< A node's name.
   kind what = kind::manifest;
   size_t piece = 0;
+  int64_t beyond = -1; ///< More pieces than that are waited for.
+  std::chrono::steady_clock::time_point at;
 };
 
 /// Owns all fetches of this node. Steps can be interrupted by the end of a

@@ -31,13 +31,18 @@ void fetch_table::announce(const std::string& source,
 
 std::vector<fetch_table::question> fetch_table::next() {
   std::vector<question> result;
+  size_t open = 0;
+  for (const auto& [name, source] : sources_)
+    open += source.asked.size();
   for (auto& [name, source] : sources_) {
-    while (source.asked.size() < limits::build::questions_of_source) {
+    while (source.asked.size() < limits::build::questions_of_source
+           && open < limits::build::questions_of_fetch) {
       const auto piece = choose(source);
       if (!piece)
         break;
       source.asked.insert(*piece);
       result.push_back({*piece, name});
+      ++open;
     }
   }
   return result;

@@ -10,6 +10,9 @@ namespace roscell::limits::build {
 /// Pieces that one source is asked for at a time: one is on its way while the
 /// next one is being read.
 constexpr size_t questions_of_source = 2;
+/// Pieces of a build that are on their way at a time, each of which is in
+/// memory when it comes.
+constexpr size_t questions_of_fetch = 16;
 /// Questions in a row that a source leaves without a piece before it is asked
 /// no more.
 constexpr int failures_in_a_row = 3;
@@ -40,6 +43,9 @@ constexpr seconds piece_call{60};
 /// How long a source lets a question for more of a build wait, and how long who
 /// asks waits for the answer.
 constexpr seconds more{25};
+/// Who says the same again sooner does not wait, and would be asked without
+/// end.
+constexpr seconds least_wait{5};
 constexpr seconds more_call{30};
 /// Sources of one fetch that are told of.
 constexpr size_t sources = 64;

@@ -18,7 +18,7 @@ using namespace roscell::test;
 namespace {
 
 /// What a node on paper answers.
-enum class source_mood { honest, liar, silent, stops_early, forger };
+enum class source_mood { honest, liar, silent, stops_early, forger, hasty };
 
 /// A fetcher and its keeper with a real disk, and sources on paper.
 struct fetch_fixture {
@@ -75,7 +75,8 @@ struct fetch_fixture {
     } else if (pieces == std::string::npos) {
       reply.status = 200;
       reply.body = R"({"pieces":")"
-                   + std::string(build.manifest.pieces.size(), '1')
+                   + std::string(build.manifest.pieces.size(),
+                                 mood == source_mood::hasty ? '0' : '1')
                    + R"(","whole":true})";
     } else {
       const auto i = std::stoul(x.target.substr(pieces + 8));
@@ -143,6 +144,22 @@ TEST_CASE_METHOD(fetch_fixture, "who gives other bytes is asked no more",
   REQUIRE(*result);
   CHECK(**result);
   CHECK(given["b"] <= limits::build::questions_of_source);
+}
+
+TEST_CASE_METHOD(fetch_fixture,
+                 "who says the same again without waiting is asked no more",
+                 "[builds]") {
+  moods["a"] = source_mood::hasty;
+  const auto result = fetch({"a"});
+  constexpr int enough = 10;
+  for (int i = 0; i < enough && !asked.empty(); ++i) {
+    const auto next = asked.front();
+    asked.erase(asked.begin());
+    answer(next);
+  }
+  CHECK(asked.empty());
+  REQUIRE(*result);
+  CHECK(to_failure((**result).error()).code == error_code::unreachable);
 }
 
 TEST_CASE_METHOD(fetch_fixture,

@@ -58,6 +58,19 @@ TEST_CASE("a build comes whole from several sources at once", "[builds]") {
   CHECK(fresh.given().size() == 3);
 }
 
+TEST_CASE("however many sources there are, so many pieces come at a time",
+          "[builds]") {
+  std::vector<std::string> sources;
+  for (size_t i = 0; i < limits::build::questions_of_fetch; ++i)
+    sources.push_back("s" + std::to_string(i));
+  auto table = table_with(sources);
+  const auto asked = table.next();
+  CHECK(asked.size() == limits::build::questions_of_fetch);
+  CHECK(table.next().empty());
+  table.take(asked.front());
+  CHECK(table.next().size() == 1);
+}
+
 TEST_CASE("what is here already is not asked for", "[builds]") {
   fetch_table table{only({0, 1, 2, 3, 4}), 1};
   table.add_source("a");
