@@ -113,8 +113,8 @@ std::string message_in(const std::string& body) {
   const auto document = json::parse(body, nullptr, false);
   if (!document.is_object())
     return body;
-  auto result = text_in(document, "message");
-  const auto cause = text_in(document, "cause");
+  auto result = text_at(document, "message");
+  const auto cause = text_at(document, "cause");
   if (!cause.empty() && result.find(cause) == std::string::npos)
     result += (result.empty() ? "" : ": ") + cause;
   return result;

@@ -43,7 +43,7 @@ std::vector<built_image> built_images_in(const document& images) {
                      .compare(0, built_prefix.size(), built_prefix)
                  == 0)
         result.push_back({own_name(name.get<std::string>()),
-                          bare_id(text_in(x, "Id")),
+                          bare_id(text_at(x, "Id")),
                           created != x.end() && created->is_number_integer()
                               ? created->get<int64_t>()
                               : 0});
@@ -56,7 +56,7 @@ std::set<std::string> used_images_in(const document& containers) {
   if (containers.is_array())
     for (const auto& x : containers)
       if (x.is_object())
-        result.insert(bare_id(text_in(x, "ImageID")));
+        result.insert(bare_id(text_at(x, "ImageID")));
   return result;
 }
 

@@ -94,8 +94,8 @@ inspect_image(const engine_door& door, const std::string& image) {
   if (!about.is_object())
     return no_sense(what);
   engine_image result;
-  result.id = whole_id(text_in(about, "Id"));
-  result.architecture = text_in(about, "Architecture");
+  result.id = whole_id(text_at(about, "Id"));
+  result.architecture = text_at(about, "Architecture");
   const auto size = about.find("Size");
   if (size != about.end() && size->is_number_integer())
     result.bytes = std::max<int64_t>(0, size->get<int64_t>());
@@ -120,7 +120,7 @@ edge_result<std::vector<std::string>> list_chains(const engine_door& door) {
   for (const auto& x : images) {
     if (!x.is_object() || ++asked > limits::engine::inspected_images)
       break;
-    const auto image = inspect_image(door, text_in(x, "Id"));
+    const auto image = inspect_image(door, text_at(x, "Id"));
     if (const auto* why = std::get_if<edge_error>(&image))
       return *why;
     // It may have gone meanwhile.

@@ -48,9 +48,9 @@ std::string host_of_key(const std::string& key) {
 }
 
 std::optional<registry_login> login_of(const document& entry) {
-  registry_login result{text_in(entry, "username"), text_in(entry, "password"),
-                        text_in(entry, "identitytoken")};
-  if (const auto both = from_base64(text_in(entry, "auth"))) {
+  registry_login result{text_at(entry, "username"), text_at(entry, "password"),
+                        text_at(entry, "identitytoken")};
+  if (const auto both = from_base64(text_at(entry, "auth"))) {
     const auto colon = both->find(':');
     if (colon != std::string::npos) {
       result.user = both->substr(0, colon);
@@ -92,7 +92,7 @@ login_entry read_login(const document& file, const std::string& registry,
     if (helper.is_string() && host_of_key(key) == registry)
       result.helper = helper.get<std::string>();
   if (file.is_object() && result.helper.empty())
-    result.helper = text_in(file, "credsStore");
+    result.helper = text_at(file, "credsStore");
   for (const auto& [key, entry] : auths.items())
     if (!result.login && entry.is_object() && host_of_key(key) == registry)
       result.login = login_of(entry);
@@ -103,8 +103,8 @@ std::optional<registry_login> read_helper_answer(const std::string& text) {
   const auto answer = document::parse(text, nullptr, false);
   if (!answer.is_object())
     return std::nullopt;
-  const auto user = text_in(answer, "Username");
-  const auto secret = text_in(answer, "Secret");
+  const auto user = text_at(answer, "Username");
+  const auto secret = text_at(answer, "Secret");
   if (user.empty() || secret.empty())
     return std::nullopt;
   return user == token_user ? registry_login{{}, {}, secret}

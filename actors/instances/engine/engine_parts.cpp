@@ -95,26 +95,4 @@ json object_of(const engine_answered& x) {
   return is_good(x) && result.is_object() ? result : json::object();
 }
 
-std::string text_at(const json& object, const char* name) {
-  const auto i = object.find(name);
-  return i != object.end() && i->is_string() ? i->get<std::string>()
-                                             : std::string{};
-}
-
-int64_t number_at(const json& object, const char* name, int64_t otherwise) {
-  const auto i = object.find(name);
-  return i != object.end() && i->is_number_integer() ? i->get<int64_t>()
-                                                     : otherwise;
-}
-
-bool flag_at(const json& object, const char* name) {
-  const auto i = object.find(name);
-  return i != object.end() && i->is_boolean() && i->get<bool>();
-}
-
-json object_at(const json& object, const char* name) {
-  const auto i = object.find(name);
-  return i != object.end() && i->is_object() ? *i : json::object();
-}
-
 } // namespace roscell

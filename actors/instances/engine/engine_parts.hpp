@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/edge/engine/engine_json.hpp"
 #include "actors/edge/engine/limits.hpp"
 #include "actors/edge/process/process_identity.hpp"
 #include "actors/instances/engine/engine_runtime.hpp"
@@ -53,14 +54,6 @@ caf::error engine_failure(const std::string& what, const engine_answered& x);
 
 /// The JSON object of a good answer; an empty object if it is none.
 json object_of(const engine_answered& x);
-
-/// A part of an object; the default if it is not there, or something else.
-std::string text_at(const json& object, const char* name);
-int64_t number_at(const json& object, const char* name, int64_t otherwise);
-bool flag_at(const json& object, const char* name);
-
-/// An object in an object; empty if it is none.
-json object_at(const json& object, const char* name);
 
 // Images: engine_images.cpp.
 caf::result<image_prepared> prepare(engine_runtime_pointer self,
