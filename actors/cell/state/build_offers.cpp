@@ -28,15 +28,6 @@ std::string host_of(const std::string& address) {
   return address.substr(0, address.rfind(':'));
 }
 
-/// The row of a build that nodes have already, or a new one.
-skill_row& row_of(skill_list& list, const installed_skill& skill) {
-  for (auto& x : list.skills)
-    if (x.skill.hash == skill.hash)
-      return x;
-  list.skills.push_back({skill, {}, {}});
-  return list.skills.back();
-}
-
 /// A node that has to let go a build is no candidate for it.
 void hide_remains(const cell_coordinator_state& st, skill_row& row) {
   const auto* remains = st.builds.find_remains(row.skill.hash);
@@ -52,25 +43,52 @@ void hide_remains(const cell_coordinator_state& st, skill_row& row) {
   row = std::move(left);
 }
 
-/// Adds the nodes that lack a build and can get it. When it was added counts
-/// for all, so that where a copy lies does not decide which build is newer.
-void add_reach(const cell_coordinator_state& st, const cell_build& build,
-               skill_list& to) {
-  auto& row = row_of(to, build.skill);
-  row.bytes = build.build.bytes;
-  row.added_unix_ms.assign(row.nodes.size(), build.added_unix_ms);
-  for (const auto& node : st.registry.rows()) {
-    const auto* entry = st.registry.find_uuid(node.identity.uuid);
-    if (entry->row.state != row_state::active || !entry->fetches_builds
-        || has_build(*entry, build.build.hash)
-        || !runs_on_architecture(build.skill, node.resources.architecture))
-      continue;
-    row.nodes.push_back(node.identity.name);
-    row.added_unix_ms.push_back(build.added_unix_ms);
-    if (!keeps(build, node.identity.name))
-      row.lacking.push_back(node.identity.name);
+/// Adds to the skills that nodes have those that they can get. There may be a
+/// thousand builds and hundreds of nodes: each is looked up once.
+class reach_writer {
+public:
+  reach_writer(const cell_coordinator_state& st, skill_list& to) : to_(to) {
+    for (size_t i = 0; i < to.skills.size(); ++i)
+      rows_[to.skills[i].skill.hash] = i;
+    for (auto& row : st.registry.rows())
+      if (row.state == row_state::active
+          && st.registry.find_uuid(row.identity.uuid)->fetches_builds)
+        nodes_.emplace_back(std::move(row.identity.name),
+                            std::move(row.resources.architecture));
   }
-}
+
+  /// When it was added counts for all nodes, so that where a copy lies does not
+  /// decide which build is newer.
+  void add(const cell_build& build) {
+    auto& row = row_of(build.skill);
+    const std::set<std::string> have(row.nodes.begin(), row.nodes.end());
+    row.bytes = build.build.bytes;
+    row.added_unix_ms.assign(row.nodes.size(), build.added_unix_ms);
+    for (const auto& [name, architecture] : nodes_) {
+      if (have.count(name) != 0
+          || !runs_on_architecture(build.skill, architecture))
+        continue;
+      row.nodes.push_back(name);
+      row.added_unix_ms.push_back(build.added_unix_ms);
+      if (!keeps(build, name))
+        row.lacking.push_back(name);
+    }
+  }
+
+private:
+  /// Of a build that nodes have already, or a new one.
+  skill_row& row_of(const installed_skill& skill) {
+    const auto [at, is_new] = rows_.try_emplace(skill.hash, to_.skills.size());
+    if (is_new)
+      to_.skills.push_back({skill, {}, {}});
+    return to_.skills[at->second];
+  }
+
+  skill_list& to_;
+  std::map<std::string, size_t> rows_; ///< By hash.
+  /// Those that get builds: name and architecture.
+  std::vector<std::pair<std::string, std::string>> nodes_;
+};
 
 } // namespace
 
@@ -169,8 +187,9 @@ skill_list skills_within_reach(const cell_coordinator_state& st) {
   skill_list result{st.registry.skills(""), st.registry.refused_skills()};
   for (auto& row : result.skills)
     hide_remains(st, row);
+  reach_writer writer{st, result};
   for (const auto& build : st.builds.of(""))
-    add_reach(st, build, result);
+    writer.add(build);
   return result;
 }
 
