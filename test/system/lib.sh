@@ -152,6 +152,28 @@ echo_task() {
       + (if $node == "" then {} else {labels: {place: $node}} end)]}'
 }
 
+# run_on NODE TASK: a step of echo on that node, which has a label place.
+run_on() {
+  echo_task "$2" "$1" > "$scratch/task.json"
+  to head request "$scratch/task.json" > "$scratch/reply.json" \
+    || fail "refused: $(cat "$scratch/reply.json")"
+  expect "the node" "$(jq -r '.instances[0].node' "$scratch/reply.json")" "$1"
+}
+
+# lines_come TASK WORD [PREFIX]: some lines that are given to its step come out,
+# with what the build puts before them.
+lines_come() {
+  local n
+  for n in 1 2 3 4 5; do
+    echo "$2 $n" >> "$scratch/data/$1.in"
+  done
+  for n in 1 2 3 4 5; do
+    timeout "$deadline_s" grep -m 1 -x "${3:-}$2 $n" > "$scratch/matches" \
+      < <(exec tail --pid=$$ -n +1 -F "$scratch/data/$1.out" 2> /dev/null) \
+      || fail "no '${3:-}$2 $n': $(tail -n 3 "$scratch/data/$1.out")"
+  done
+}
+
 # has_line PATTERN: grep -q that reads on, for who writes into a closed pipe
 # fails, and the pipe with it.
 has_line() {

@@ -48,20 +48,6 @@ test_a_skill_without_its_program_is_refused_and_shown_with_the_reason() {
     no_feasible_allocation
 }
 
-# lines_pass TASK WORD [PREFIX]: some lines that are given to its step come out,
-# each once, with what this build puts before them.
-lines_pass() {
-  local n
-  for n in 1 2 3 4 5; do
-    echo "$2 $n" >> "$scratch/data/$1.in"
-  done
-  for n in 1 2 3 4 5; do
-    timeout "$deadline_s" grep -m 1 -x "${3:-}$2 $n" > "$scratch/matches" \
-      < <(exec tail --pid=$$ -n +1 -F "$scratch/data/$1.out" 2> /dev/null) \
-      || fail "no '${3:-}$2 $n': $(tail -n 3 "$scratch/data/$1.out")"
-  done
-}
-
 # edit_echo FOLDER PREFIX: its program is another one, which puts PREFIX before
 # each line.
 edit_echo() {
@@ -90,7 +76,7 @@ test_an_edited_skill_is_a_new_build_at_once_and_what_runs_of_it_runs_on() {
   echo_task hello > "$scratch/task.json"
   to head request "$scratch/task.json" > "$scratch/reply.json" \
     || fail "refused: $(cat "$scratch/reply.json")"
-  lines_pass hello before
+  lines_come hello before
   for prefix in first second; do
     before=$(builds_on head)
     shim=$(instance_at head container)
@@ -100,14 +86,14 @@ test_an_edited_skill_is_a_new_build_at_once_and_what_runs_of_it_runs_on() {
     [[ $(builds_on head) =~ ^[0-9a-f]{64}$ && $(builds_on head) != "$before" ]] \
       || fail "builds: $(builds_on head)"
     expect "what runs" "$(instance_at head 'spec.skill')" "$before"
-    lines_pass hello "meanwhile of $prefix" \
+    lines_come hello "meanwhile of $prefix" \
       "$([[ $prefix == first ]] || echo "first ")"
     expect "its program" "$(instance_at head container)" "$shim"
     to head restart hello > "$scratch/restarted" 2>&1 \
       || fail "no restart: $(cat "$scratch/restarted")"
     expect "what is restarted" "$(instance_at head 'spec.skill')" \
       "$(builds_on head)"
-    lines_pass hello "after $prefix" "$prefix "
+    lines_come hello "after $prefix" "$prefix "
   done
 }
 
@@ -117,7 +103,7 @@ test_what_crashes_after_its_folder_was_edited_runs_no_other_build() {
   echo_task hello | jq '.pipeline[0].restart = {delay_s: 0.1}' > "$scratch/task.json"
   to head request "$scratch/task.json" > "$scratch/reply.json" \
     || fail "refused: $(cat "$scratch/reply.json")"
-  lines_pass hello before
+  lines_come hello before
   edit_echo "$scratch/head.skills/echo" "edited "
   await head '.event == "skill_added"' > /dev/null
   pkill -KILL -P "$(readlink "$scratch/head/instances/$(instance_at head spec.instance)/pid" \
@@ -126,7 +112,7 @@ test_what_crashes_after_its_folder_was_edited_runs_no_other_build() {
               and (.data.reason | contains("is not build"))' > /dev/null
   to head restart hello > "$scratch/restarted" 2>&1 \
     || fail "no restart: $(cat "$scratch/restarted")"
-  lines_pass hello after "edited "
+  lines_come hello after "edited "
 }
 
 test_a_skill_that_is_copied_onto_a_member_is_placed_there_at_once() {
@@ -143,11 +129,11 @@ test_a_skill_that_is_copied_onto_a_member_is_placed_there_at_once() {
   to head request "$scratch/task.json" > "$scratch/reply.json" \
     || fail "refused: $(cat "$scratch/reply.json")"
   expect "the node" "$(jq -r '.instances[0].node' "$scratch/reply.json")" arm
-  lines_pass there placed
+  lines_come there placed
   rm -r "$scratch/arm/skills/echo"
   await head '.event == "skill_removed" and .data.node == "arm"' > /dev/null
   expect "who has it" "$(builds_on arm)" ""
-  lines_pass there "still there"
+  lines_come there "still there"
 }
 
 # send_hangup NAME: the node reads its file again, and says in $scratch/said what
@@ -170,7 +156,7 @@ test_sighup_reads_the_file_and_skills_and_a_broken_file_changes_nothing() {
   echo_task hello here > "$scratch/task.json"
   to head request "$scratch/task.json" > "$scratch/reply.json" \
     || fail "refused: $(cat "$scratch/reply.json")"
-  lines_pass hello before
+  lines_come hello before
   printf 'label = place=there\nlog-bytes = 2MiB\n' > "$conf"
   send_hangup head
   expect "what has changed" "$(jq -c .data "$scratch/said")" \
@@ -190,8 +176,8 @@ test_sighup_reads_the_file_and_skills_and_a_broken_file_changes_nothing() {
   jq -r .data.reason "$scratch/said" | has_line -F "$conf:1: there is no option" \
     || fail "$(cat "$scratch/said")"
   expect "its label" "$(get head /v1/node | jq -r .resources.labels.place)" there
-  lines_pass hello after
-  lines_pass again after
+  lines_come hello after
+  lines_come again after
 }
 
 # keep_cores_busy: every core is taken until the test is over.

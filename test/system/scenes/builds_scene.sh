@@ -28,27 +28,6 @@ add_echo() {
     || fail "not added: $(cat "$scratch/added")"
 }
 
-# run_on NODE TASK: a step of echo on that node.
-run_on() {
-  echo_task "$2" "$1" > "$scratch/task.json"
-  to head request "$scratch/task.json" > "$scratch/reply.json" \
-    || fail "refused: $(cat "$scratch/reply.json")"
-  expect "the node" "$(jq -r '.instances[0].node' "$scratch/reply.json")" "$1"
-}
-
-# lines_come TASK WORD: some lines that are given to its step come out.
-lines_come() {
-  local n
-  for n in 1 2 3 4 5; do
-    echo "$2 $n" >> "$scratch/data/$1.in"
-  done
-  for n in 1 2 3 4 5; do
-    timeout "$deadline_s" grep -m 1 -x "$2 $n" > "$scratch/matches" \
-      < <(exec tail --pid=$$ -n +1 -F "$scratch/data/$1.out" 2> /dev/null) \
-      || fail "no '$2 $n': $(tail -n 3 "$scratch/data/$1.out")"
-  done
-}
-
 # refused_with CODE NODE COMMAND...: it ends so.
 refused_with() {
   local code=$1
