@@ -91,7 +91,7 @@ void ask_keeper(build_exchange_self self, const build_keeper_actor& keeper,
                 const responder& answer, OnReply on_reply) {
   self->request(keeper, timeout, what)
       .then(
-          [self, answer, on_reply](const Reply& reply) {
+          [self, answer, on_reply](Reply& reply) {
             on_reply(answer, reply);
             self->quit();
           },
@@ -109,8 +109,9 @@ struct build_asker {
 
   void operator()(const piece_query& x) const {
     ask_keeper<piece_read>(self, keeper, limits::build::disk, x, answer,
-                           [](const responder& to, const piece_read& read) {
-                             to.reply(200, bytes_content, read.bytes);
+                           [](const responder& to, piece_read& read) {
+                             to.reply(200, bytes_content,
+                                      std::move(read.bytes));
                            });
   }
 

@@ -10,6 +10,7 @@
 #include <boost/beast/http/error.hpp>
 #include <boost/beast/http/rfc7230.hpp>
 
+#include <array>
 #include <limits>
 #include <utility>
 #include <variant>
@@ -272,7 +273,7 @@ void http_connection::refuse_request(int status, error_code code,
   reply({status, json_content, error_body(code, message, hint)});
 }
 
-void http_connection::reply(const http_reply& reply) {
+void http_connection::reply(http_reply reply) {
   if (phase_ != phase::answering)
     return;
   phase_ = phase::writing;
@@ -281,10 +282,15 @@ void http_connection::reply(const http_reply& reply) {
   outgoing_ = reply_head(reply, last_reply_);
   // The answer to a HEAD request has no body.
   if (!parser_->is_header_done() || parser_->get().method() != http::verb::head)
-    outgoing_ += reply.body;
+    outgoing_body_ = std::move(reply.body);
+  else
+    outgoing_body_.clear();
   limit(shared_->limits.write);
+  // Both as they are: a body may be large.
   boost::asio::async_write(
-      socket_, boost::asio::buffer(outgoing_),
+      socket_,
+      std::array{boost::asio::buffer(std::as_const(outgoing_)),
+                 boost::asio::buffer(std::as_const(outgoing_body_))},
       [self = shared_from_this()](error ec, size_t) { self->on_written(ec); });
 }
 
@@ -294,6 +300,7 @@ void http_connection::on_written(error ec) {
   if (ec)
     return abort();
   outgoing_ = {};
+  outgoing_body_ = {};
   if (last_reply_ || shared_->draining)
     return linger();
   next_request();

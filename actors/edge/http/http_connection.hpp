@@ -46,7 +46,7 @@ public:
   }
 
   /// The answers to the request in progress.
-  void reply(const http_reply& reply);
+  void reply(http_reply reply);
   void hand_over(const std::shared_ptr<stream_connection>& stream);
 
 private:
@@ -90,7 +90,8 @@ private:
   boost::asio::steady_timer timer_;
   boost::beast::flat_buffer incoming_;
   std::optional<parser> parser_;
-  std::string outgoing_;
+  std::string outgoing_; ///< The head of a reply, then its body.
+  std::string outgoing_body_;
   std::shared_ptr<stream_connection> stream_;
   std::weak_ptr<session_accept> session_;
   clock::time_point last_heard_ = clock::now();

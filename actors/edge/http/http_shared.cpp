@@ -145,10 +145,11 @@ public:
   }
 
   void reply(http_reply reply) override {
-    shared_->core->post([connection = connection_, reply = std::move(reply)] {
-      if (const auto alive = connection.lock())
-        alive->reply(reply);
-    });
+    shared_->core->post(
+        [connection = connection_, reply = std::move(reply)]() mutable {
+          if (const auto alive = connection.lock())
+            alive->reply(std::move(reply));
+        });
   }
 
   std::shared_ptr<http_stream> stream(std::string content_type) override {
