@@ -186,7 +186,8 @@ void take_what_is_there(build_fetcher_self self, const asked_source& asked,
       && self->clock().now() - asked.at < limits::build::least_wait)
     return table.drop_source(asked.source, "it does not wait for more");
   if (static_cast<size_t>(count) < pieces->size())
-    ask_what_is_there(self, asked.hash, asked.source, count);
+    ask_what_is_there(self, asked.hash, asked.source,
+                      count + count / limits::build::part_of_news);
 }
 
 void publish_progress(build_fetcher_self self, running_fetch& fetch) {
@@ -267,7 +268,7 @@ std::string reason_of(const source_answered& x) {
   return "it answers with status " + std::to_string(x.status);
 }
 
-void on_answer(build_fetcher_self self, const source_answered& x) {
+void on_answer(build_fetcher_self self, source_answered& x) {
   constexpr int64_t good = 200;
   auto node = self->state.questions.extract(x.question);
   if (node.empty())
@@ -282,7 +283,7 @@ void on_answer(build_fetcher_self self, const source_answered& x) {
   if (asked.what == asked_kind::manifest)
     return take_manifest(self, asked, x.body);
   if (asked.what == asked_kind::piece)
-    return take_piece(self, asked, x.body);
+    return take_piece(self, asked, std::move(x.body));
   const auto lost = fetch->table->lost().size();
   take_what_is_there(self, asked, x.body);
   publish_losses(self, asked.hash, lost);
@@ -352,7 +353,8 @@ build_fetcher(build_fetcher_self self, const build_fetcher_config& config) {
         return state_of({{"fetches", std::move(fetches)}});
       },
       [self](const fetch_build& x) { return fetch(self, x); },
-      [self](const source_answered& x) { on_answer(self, x); },
+      // A piece is large: it is moved, not copied.
+      [self](source_answered& x) { on_answer(self, x); },
   };
 }
 

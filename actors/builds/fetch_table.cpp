@@ -31,11 +31,14 @@ void fetch_table::announce(const std::string& source,
 
 std::vector<fetch_table::question> fetch_table::next() {
   std::vector<question> result;
+  const auto at_a_time = sources_.size() <= limits::build::few_sources
+                             ? limits::build::questions_of_source
+                             : 1;
   size_t open = 0;
   for (const auto& [name, source] : sources_)
     open += source.asked.size();
   for (auto& [name, source] : sources_) {
-    while (source.asked.size() < limits::build::questions_of_source
+    while (source.asked.size() < at_a_time
            && open < limits::build::questions_of_fetch) {
       const auto piece = choose(source);
       if (!piece)

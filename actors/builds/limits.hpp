@@ -10,6 +10,10 @@ namespace roscell::limits::build {
 /// Pieces that one source is asked for at a time: one is on its way while the
 /// next one is being read.
 constexpr size_t questions_of_source = 2;
+/// Of more sources than these one at a time will do. What a source sends to many
+/// at once comes to all of them late, and they have nothing for each other
+/// until then.
+constexpr size_t few_sources = 2;
 /// Pieces of a build that are on their way at a time, each of which is in
 /// memory when it comes.
 constexpr size_t questions_of_fetch = 16;
@@ -43,6 +47,9 @@ constexpr seconds piece_call{60};
 /// How long a source lets a question for more of a build wait, and how long who
 /// asks waits for the answer.
 constexpr seconds more{25};
+/// A source is asked again once it has this part more than it had: of each
+/// piece on its own a hundred nodes would be told a hundred times.
+constexpr int part_of_news = 4;
 /// Who says the same again sooner does not wait, and would be asked without
 /// end.
 constexpr seconds least_wait{5};
