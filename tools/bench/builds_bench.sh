@@ -35,11 +35,11 @@ for node in head arm; do
   before[$node]=$(memory_kib "$node" Pss_Anon)
 done
 begin=$(now_ms)
-add_builds $((warm_up + 1)) $((warm_up + builds))
-figure "adding a build" "$(jq -n "($(now_ms) - $begin) / $builds")" ms
+add_builds $((warm_up + 1)) "$builds"
+figure "adding a build" "$(jq -n "($(now_ms) - $begin) / ($builds - $warm_up)")" ms
 for node in head arm; do
   grown[$node]=$(($(memory_kib "$node" Pss_Anon) - ${before[$node]}))
-  figure "memory of $node for $builds builds" "${grown[$node]}" KiB
+  figure "memory of $node for $((builds - warm_up)) builds" "${grown[$node]}" KiB
 done
 list_ms=$(for ((n = 0; n < 9; ++n)); do
   begin=$(now_ms)

@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # How long a skill takes to come to ten nodes at once, as a multiple of the time to
-# one, where each host's link carries 100 Mbit/s each way.
-# One JSON line a figure; ends with 1 if a bound
-# is broken. Hosts are network namespaces, which needs root.
+# one, where each host's link carries 100 Mbit/s each way. One JSON line a figure; ends
+# with 1 if a bound is broken. Hosts are network namespaces, which needs root.
 # Usage: tools/bench/fetch_bench.sh BUILD_DIR [MEBIBYTES]
 set -uo pipefail
 cd "$(dirname "$0")/../.."
@@ -15,23 +14,19 @@ use_skills
 mkdir "$scratch/none"
 skills=$scratch/none
 
-start_on() {
-  inside=(ip netns exec "${hosts[$1 - 1]}")
-  start_node "$2" --interface eth0 --label "place=$2" "${@:3}"
-  inside=()
-}
-
 bridge_hosts $((nodes + 2))
 shape_links 100mbit
-start_on 1 head --coordinator --cell line
-start_on 2 keeper --join 10.231.7.1
+make_site_token
+discovery_port=11811
+start_on 1 head --coordinator --cell line --label place=head
+start_on 2 keeper --join 10.231.7.1 --label place=keeper
 await_joined head keeper
 head -c "${mebibytes}MiB" /dev/urandom > "$scratch/skills/echo/model"
 "$ROSCELL" skill add "$scratch/skills/echo" --to "$scratch/head/node.sock" \
   > "$scratch/added" || fail "not added"
 first_ms=$(await keeper '.event == "build_fetched"' | jq .data.took_ms)
 for ((n = 1; n <= nodes; ++n)); do
-  start_on $((n + 2)) "n$n" --join 10.231.7.1
+  start_on $((n + 2)) "n$n" --join 10.231.7.1 --label "place=n$n"
   await_joined head "n$n"
 done
 for ((n = 1; n <= nodes; ++n)); do
