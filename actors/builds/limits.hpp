@@ -10,8 +10,8 @@ namespace roscell::limits::build {
 /// Pieces that one source is asked for at a time: one is on its way while the
 /// next one is being read.
 constexpr size_t questions_of_source = 2;
-/// Of more sources than these one at a time will do. What a source sends to many
-/// at once comes to all of them late, and they have nothing for each other
+/// Of more sources than these one at a time will do. What a source sends to
+/// many at once comes to all of them late, and they have nothing for each other
 /// until then.
 constexpr size_t few_sources = 2;
 /// Pieces of a build that are on their way at a time, each of which is in
