@@ -118,7 +118,8 @@ std::string skills_view(const skill_list& skills, const view_style& style) {
              row.skill.hash.substr(0, short_hash), nodes});
       }
   }
-  return (t.rows.empty() ? "no skills\n" : t.render(style.text))
+  const auto none = skills.builds.empty() ? "no skills\n" : "";
+  return (t.rows.empty() ? none : t.render(style.text))
          + (has_older ? "* has a newer build: this one is for steps that name "
                         "it\n"
                       : "")
