@@ -146,6 +146,23 @@ std::vector<announcement> claims_among(const std::vector<announcement>& seen,
   return result;
 }
 
+/// Where this coordinator was at its last start, if that is elsewhere: another
+/// one may run there on a data directory of which this one is a copy, and not
+/// be heard in time on a busy host.
+std::vector<announcement> former_place(const node_config& config,
+                                       const node_data& data,
+                                       const node_edges& edges) {
+  if (data.led_from.empty() || data.led_from == edges.http_address)
+    return {};
+  announcement result;
+  result.role = "coordinator";
+  result.node = config.name;
+  result.cell = config.cell;
+  result.session = data.led_from;
+  result.uuid = data.identity.uuid;
+  return {std::move(result)};
+}
+
 /// The refusal where one of them proves its claim; the others are told of.
 caf::error refuse_owner(const std::vector<announcement>& claims,
                         const node_config& config, const node_data& data,
@@ -174,6 +191,7 @@ caf::expected<uint8_t> claim_cell(const node_config& config,
   const auto& own = data.identity.uuid;
   std::set<std::string> asked;
   std::vector<announcement> seen;
+  auto claims = former_place(config, data, edges);
   // Who is heard first may claim what it cannot prove, where the owner of the
   // name, who is slower, can. More than two looks would let unauthenticated
   // peers hold up the start for ever.
@@ -182,13 +200,17 @@ caf::expected<uint8_t> claim_cell(const node_config& config,
     if (!around)
       return around.error();
     seen = std::move(*around);
-    const auto claims =
-        without_repetitions(claims_among(seen, config, own, edges), asked);
+    const auto heard = claims_among(seen, config, own, edges);
+    claims.insert(claims.end(), heard.begin(), heard.end());
+    claims = without_repetitions(std::move(claims), asked);
     if (claims.empty())
       break;
     if (auto refusal = refuse_owner(claims, config, data, edges, context))
       return refusal;
+    claims.clear();
   }
+  if (auto why = keep_address(data, edges.http_address))
+    return why;
   return config.server_id.value_or(free_server_id(seen, own));
 }
 

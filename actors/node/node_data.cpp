@@ -184,6 +184,9 @@ caf::error load_self(const node_config& config, node_data& data, bool existed) {
                                                     "membership", i->second);
   if (!config.coordinator)
     return caf::none;
+  if (const auto i = table->find("address");
+      i != table->end() && i->second.is_string())
+    data.led_from = i->second.get<std::string>();
   if (auto why = load_cell_uuid(data, *table))
     return why;
   return raise_incarnation(data, *table);
@@ -284,6 +287,15 @@ caf::expected<node_data> open_node_data(const node_config& config) {
     return why;
   data.strays = find_strays(config.data_dir / "instances", data.instances);
   return data;
+}
+
+caf::error keep_address(const node_data& data, const std::string& address) {
+  if (data.led_from == address)
+    return caf::none;
+  if (auto why =
+          data.database->put("identity", "address", json(address).dump()))
+    return to_caf(*why);
+  return caf::none;
 }
 
 } // namespace roscell

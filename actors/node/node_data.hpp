@@ -40,6 +40,7 @@ struct node_data {
   bool is_new = false;     ///< It was made at this start.
   int64_t incarnation = 0; ///< Of the coordinator, already raised.
   std::string cell_uuid;   ///< Of the cell that it coordinates.
+  std::string led_from;    ///< Its address when it last did; empty: never.
   std::optional<membership_record> membership; ///< Of a primary node.
   std::vector<member_record> members;          ///< Of a coordinator.
   std::vector<transfer_row> transfers;         ///< The same.
@@ -70,6 +71,10 @@ struct node_data {
 /// Errors: conflict (another node uses the directory), internal (no permission,
 /// disk full, damaged database), unauthorized (a bad site token file).
 caf::expected<node_data> open_node_data(const node_config& config);
+
+/// Writes down where the node leads its cell from, unless that is known.
+/// Errors: internal (disk).
+caf::error keep_address(const node_data& data, const std::string& address);
 
 // The secrets that a node has in files. Least and most lengths:
 // `limits::token`.

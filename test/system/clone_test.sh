@@ -92,14 +92,18 @@ test_of_two_copies_that_come_at_once_one_is_refused() {
 }
 
 test_a_copy_of_a_coordinator_does_not_start_beside_it() {
-  local code
+  local domain
   bridge_hosts 4
   start_day
   copy_host head twin
-  (start_copy twin --coordinator --cell hall) > "$scratch/said" 2>&1 \
-    && fail "it runs beside the first one"
-  has_line "10.231.7.1:8420" "$scratch/twin.log" \
-    || fail "it says: $(cat "$scratch/twin.log")"
+  # On another domain it hears nobody, as on a busy host.
+  for domain in "$public_domain" $((public_domain + 1)); do
+    (public_domain=$domain start_copy twin --coordinator --cell hall) \
+      > "$scratch/said" 2>&1 && fail "it runs beside the first one"
+    has_line "10.231.7.1:8420" "$scratch/twin.log" \
+      || fail "it says: $(cat "$scratch/twin.log")"
+    rm "$scratch/twin.log"
+  done
   loses_nobody head 3
   possible=$EPOCHREALTIME
   day_ends 5

@@ -40,7 +40,6 @@ start_node() {
   shift
   rm -f "$ready"
   mkfifo "$ready"
-  exec {ready_fd}<> "$ready"
   "${inside[@]}" "$ROSCELL" node --name "$name" --data-dir "$scratch/$name" \
     --port "$http_port" --discovery-port "$discovery_port" --skills "$skills" \
     --public-domain "$public_domain" \
@@ -48,13 +47,10 @@ start_node() {
     --ready-fd 5 "$@" 5> "$ready" 2>> "$scratch/$name.log" &
   pid[$name]=$!
   echo "${pid[$name]}" >> "$scratch/pids"
-  # The node's end, ready or not, ends the wait too. By the descriptor, because
-  # the path may be that of the node's next start then.
-  { tail --pid="${pid[$name]}" -f /dev/null; echo gone >&"$ready_fd"; } &
+  # Only the node holds the other end, so its end is the end of the wait, too.
   local said=
-  read -r -t "$deadline_s" said <&"$ready_fd" || true
-  exec {ready_fd}<&-
-  [[ -n $said && $said != gone ]] \
+  read -r -t "$deadline_s" said < "$ready" || true
+  [[ -n $said ]] \
     || fail "node $name did not start: $(tail -3 "$scratch/$name.log")"
 }
 

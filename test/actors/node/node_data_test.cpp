@@ -68,6 +68,20 @@ TEST_CASE_METHOD(data_fixture, "A node is the same at its next start",
 }
 
 TEST_CASE_METHOD(data_fixture,
+                 "A coordinator knows where it was at its last start",
+                 "[node_data]") {
+  config.coordinator = true;
+  {
+    const auto first = open();
+    CHECK(first.led_from.empty());
+    CHECK_FALSE(keep_address(first, "192.0.2.1:8420"));
+  }
+  const auto second = open();
+  CHECK(second.led_from == "192.0.2.1:8420");
+  CHECK_FALSE(keep_address(second, "192.0.2.2:8420"));
+}
+
+TEST_CASE_METHOD(data_fixture,
                  "A damaged database never makes a new node by itself",
                  "[node_data]") {
   open();
