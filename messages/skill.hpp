@@ -184,9 +184,12 @@ struct skill_problem {
 struct skill_query {
   static constexpr const char* type = "skill_query";
   std::string operation; ///< Empty: all.
+  /// Without the models of the cell's builds: there may be a thousand.
+  bool brief = false;
 
   static constexpr auto fields() {
-    return field_list{optional("operation", &skill_query::operation)};
+    return field_list{optional("operation", &skill_query::operation),
+                      optional("brief", &skill_query::brief)};
   }
 };
 

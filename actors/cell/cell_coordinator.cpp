@@ -53,7 +53,7 @@ cell_list cells_seen(const cell_coordinator_state& st) {
 skill_list list_skills(const cell_coordinator_state& st,
                        const skill_query& query) {
   return {st.registry.skills(query.operation), st.registry.refused_skills(),
-          describe_builds(st, query.operation)};
+          describe_builds(st, query)};
 }
 
 void on_status_reported(coordinator_pointer self,

@@ -164,7 +164,7 @@ void restore_builds(coordinator_pointer self) {
 caf::result<skill_added> add_skill(coordinator_pointer self,
                                    const skill_addition& request) {
   auto& st = self->state;
-  if (const auto* known = st.builds.find(request.build.hash))
+  if (const auto known = st.builds.find(request.build.hash))
     return skill_added{*known};
   if (!st.setup.keeper)
     return fail(error_code::conflict, "this coordinator keeps no builds");

@@ -148,7 +148,7 @@ rest_route query_route(const http_request& request,
     if (what == "instances")
       return ask({{"type", "instance_query"}});
     if (what == "skills")
-      return ask({{"type", "skill_query"}});
+      return ask({{"type", "skill_query"}, {"brief", flag(request, "brief")}});
     if (what == "requests")
       return ask({{"type", "request_trace_query"}});
     if (what == "registration")

@@ -121,9 +121,11 @@ build_offer offer_from(const cell_coordinator_state& st,
 build_offer offer_for(const cell_coordinator_state& st, const std::string& hash,
                       const std::string& node,
                       const std::vector<std::string>& beside) {
-  const auto* build = st.builds.find(hash);
   const auto* reader = st.registry.find_name(node);
-  if (build == nullptr || reader == nullptr || has_build(*reader, hash))
+  if (reader == nullptr || has_build(*reader, hash))
+    return {};
+  const auto build = st.builds.find(hash);
+  if (!build)
     return {};
   return offer_of(st, *build, node, beside);
 }
@@ -162,11 +164,14 @@ std::vector<build_offer> offers_for(const cell_coordinator_state& st,
 }
 
 std::vector<cell_build> describe_builds(const cell_coordinator_state& st,
-                                        const std::string& operation) {
-  auto result = st.builds.of(operation);
+                                        const skill_query& query) {
+  auto result = st.builds.of(query.operation);
   std::map<std::string, cell_build*> by_hash;
-  for (auto& x : result)
+  for (auto& x : result) {
     by_hash[x.build.hash] = &x;
+    if (query.brief)
+      x.skill.descriptor.models.clear();
+  }
   std::map<std::string, std::set<std::string>> coming_to;
   for (const auto& [task, entry] : st.tasks.entries())
     for (const auto& x : st.deployments.of_task(task)) {

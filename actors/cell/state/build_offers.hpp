@@ -37,9 +37,9 @@ build_offer offer_of(const cell_coordinator_state& st, const cell_build& build,
                      const std::string& node,
                      const std::vector<std::string>& beside = {});
 
-/// The cell's builds with where they are needed; an empty operation means all.
+/// The cell's builds with where they are needed.
 std::vector<cell_build> describe_builds(const cell_coordinator_state& st,
-                                        const std::string& operation);
+                                        const skill_query& query);
 
 /// The skills of all nodes, and those of the cell that nodes can get.
 skill_list skills_within_reach(const cell_coordinator_state& st);

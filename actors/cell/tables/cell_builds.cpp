@@ -2,9 +2,11 @@
 
 #include "actors/cell/limits.hpp"
 #include "messages/codec/instantiate.hpp"
+#include "messages/codec/json_codec.hpp"
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace roscell {
 
@@ -30,13 +32,22 @@ bool shares_architecture(const installed_skill& a, const installed_skill& b) {
 
 } // namespace
 
+/// What it is found by is said by the table.
+cell_build cell_builds::unpack(const std::string& hash, const packed_build& x) {
+  auto result = json::from_cbor(x.rest.begin(), x.rest.end()).get<cell_build>();
+  result.build.hash = hash;
+  result.skill.hash = hash;
+  result.skill.descriptor.operation = x.operation;
+  return result;
+}
+
 std::optional<failure> cell_builds::refusal(const cell_build& x) const {
   const auto& skill = x.skill;
-  for (const auto& [hash, known] : builds_) {
-    if (hash == x.build.hash
-        || known.skill.descriptor.operation != skill.descriptor.operation
-        || known.skill.version != skill.version
-        || !shares_architecture(known.skill, skill))
+  for (const auto& [hash, packed] : builds_) {
+    if (hash == x.build.hash || packed.operation != skill.descriptor.operation)
+      continue;
+    const auto known = unpack(hash, packed).skill;
+    if (known.version != skill.version || !shares_architecture(known, skill))
       continue;
     return failure{error_code::conflict,
                    "version " + skill.version + " of '"
@@ -56,7 +67,14 @@ std::optional<failure> cell_builds::refusal(const cell_build& x) const {
 }
 
 void cell_builds::add(const cell_build& x) {
-  builds_[x.build.hash] = x;
+  auto rest = x;
+  rest.build.hash.clear();
+  rest.skill.hash.clear();
+  rest.skill.descriptor.operation.clear();
+  packed_build packed{x.skill.descriptor.operation, {}};
+  json::to_cbor(json(rest), packed.rest);
+  packed.rest.shrink_to_fit();
+  builds_[x.build.hash] = std::move(packed);
   remains_.erase(x.build.hash);
 }
 
@@ -102,16 +120,18 @@ const build_remains* cell_builds::find_remains(const std::string& hash) const {
   return found == remains_.end() ? nullptr : &found->second;
 }
 
-const cell_build* cell_builds::find(const std::string& hash) const {
+std::optional<cell_build> cell_builds::find(const std::string& hash) const {
   const auto found = builds_.find(hash);
-  return found == builds_.end() ? nullptr : &found->second;
+  if (found == builds_.end())
+    return std::nullopt;
+  return unpack(hash, found->second);
 }
 
 std::vector<cell_build> cell_builds::of(const std::string& operation) const {
   std::vector<cell_build> result;
   for (const auto& [hash, x] : builds_)
-    if (operation.empty() || x.skill.descriptor.operation == operation)
-      result.push_back(x);
+    if (operation.empty() || x.operation == operation)
+      result.push_back(unpack(hash, x));
   std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) {
     return std::tie(a.skill.descriptor.operation, b.added_unix_ms)
            < std::tie(b.skill.descriptor.operation, a.added_unix_ms);

@@ -44,6 +44,20 @@ struct shared_cell : paper_cell {
 
 } // namespace
 
+TEST_CASE_METHOD(shared_cell, "A brief list leaves out the models of builds",
+                 "[builds]") {
+  add_skill();
+  const auto models = [this](bool brief) {
+    return request({{"type", "skill_query"}, {"brief", brief}})
+        .at("builds")[0]
+        .at("skill")
+        .at("descriptor")
+        .at("models");
+  };
+  CHECK_FALSE(models(false).empty());
+  CHECK(models(true).empty());
+}
+
 TEST_CASE_METHOD(shared_cell,
                  "A skill is added once two nodes keep it and it is written "
                  "down",

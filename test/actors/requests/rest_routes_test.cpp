@@ -46,7 +46,8 @@ TEST_CASE("Each path of a table is the query of that table", "[rest_routes]") {
   CHECK(asked(get("/v1/cells")) == json{{"type", "cell_list_query"}});
   CHECK(asked(get("/v1/tasks")) == json{{"type", "task_query"}});
   CHECK(asked(get("/v1/instances")) == json{{"type", "instance_query"}});
-  CHECK(asked(get("/v1/skills")) == json{{"type", "skill_query"}});
+  CHECK(asked(get("/v1/skills"))
+        == json{{"type", "skill_query"}, {"brief", false}});
   CHECK(asked(get("/v1/tasks/t1"))
         == json{{"type", "task_query"}, {"task", "t1"}});
   CHECK(asked(get("/v1/instances/i1"))

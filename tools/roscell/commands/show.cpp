@@ -41,6 +41,7 @@ struct subject {
   std::string (*view)(const json& reply, const view_style& style);
   /// The same for one thing that was named; nullptr: as for all.
   std::string (*one)(const json& reply, const view_style& style) = nullptr;
+  const char* table_query = ""; ///< What a table can do without is left out.
 };
 
 template <class Message, std::string (*View)(const Message&, const view_style&)>
@@ -99,7 +100,9 @@ const subject subjects[] = {
      nullptr,
      "/v1/skills",
      {"skills"},
-     view_of<skill_list, skills_view>},
+     view_of<skill_list, skills_view>,
+     nullptr,
+     "?brief"},
 };
 
 /// The things as a program gets them: one document, or one in each line.
@@ -145,6 +148,8 @@ int show_subject(const subject& what, const show_options& options) {
   auto path = std::string{what.path};
   if (!options.argument.empty())
     path += "/" + percent_encode(options.argument);
+  if (!options.as_json())
+    path += what.table_query;
   return show(
       options, node,
       [&] {
