@@ -183,6 +183,8 @@ using build_fetcher_actor = introspected_actor::extend<
     // Replies once the build is here, whole and checked. Errors: unreachable
     // (no source gives it, or those that do lie), and those of the keeper.
     caf::replies_to<fetch_build>::with<build_fetched>,
-    caf::reacts_to<source_answered>>;
+    caf::reacts_to<source_answered>,
+    // A timer is due.
+    caf::reacts_to<caf::tick_atom, uint64_t>>;
 
 } // namespace roscell

@@ -235,14 +235,26 @@ void take_piece(build_fetcher_self self, const asked_source& asked,
           });
 }
 
-/// Asks for what can be asked now.
+/// Asks for what can be asked now, and looks again when some of it is slow.
 void pump(build_fetcher_self self, const std::string& hash) {
+  auto& st = self->state;
   auto& table = *fetch_of(self, hash)->table;
   if (table.stranded())
     return strand(self, hash);
-  for (const auto& x : table.next())
+  const auto now = self->clock().now();
+  for (const auto& x : table.next(now))
     ask(self, {hash, x.source, asked_kind::piece, x.piece},
         "/pieces/" + std::to_string(x.piece), limits::build::piece_call);
+  st.timer.set(self, now + limits::build::slow);
+}
+
+void pump_all(build_fetcher_self self) {
+  std::vector<std::string> running;
+  for (const auto& [hash, x] : self->state.fetches)
+    if (x.table)
+      running.push_back(hash);
+  for (const auto& hash : running)
+    pump(self, hash);
 }
 
 void on_no_answer(build_fetcher_self self, const asked_source& asked,
@@ -355,6 +367,10 @@ build_fetcher(build_fetcher_self self, const build_fetcher_config& config) {
       [self](const fetch_build& x) { return fetch(self, x); },
       // A piece is large: it is moved, not copied.
       [self](source_answered& x) { on_answer(self, x); },
+      [self](caf::tick_atom, uint64_t number) {
+        if (self->state.timer.rings(number))
+          pump_all(self);
+      },
   };
 }
 

@@ -2,6 +2,7 @@
 
 #include "actors/builds/fetch_table.hpp"
 #include "actors/core/actor_context.hpp"
+#include "actors/core/alarm.hpp"
 #include "messages/messages.hpp"
 
 #include <caf/typed_response_promise.hpp>
@@ -65,6 +66,7 @@ struct build_fetcher_state {
   std::map<std::string, running_fetch> fetches; ///< By hash.
   std::map<uint64_t, asked_source> questions;
   uint64_t last_question = 0;
+  alarm timer; ///< For pieces that have become slow.
 };
 
 /// The BUILD FETCHER. Messages: messages/inside/builds.hpp.

@@ -29,7 +29,7 @@ void fetch_table::announce(const std::string& source,
   found->second.has = std::move(pieces);
 }
 
-std::vector<fetch_table::question> fetch_table::next() {
+std::vector<fetch_table::question> fetch_table::next(time_point now) {
   std::vector<question> result;
   const auto at_a_time = sources_.size() <= limits::build::few_sources
                              ? limits::build::questions_of_source
@@ -40,10 +40,10 @@ std::vector<fetch_table::question> fetch_table::next() {
   for (auto& [name, source] : sources_) {
     while (source.asked.size() < at_a_time
            && open < limits::build::questions_of_fetch) {
-      const auto piece = choose(source);
+      const auto piece = choose(source, now);
       if (!piece)
         break;
-      source.asked.insert(*piece);
+      source.asked[*piece] = now;
       result.push_back({*piece, name});
       ++open;
     }
@@ -108,18 +108,20 @@ const std::map<std::string, size_t>& fetch_table::given() const {
 }
 
 /// Of the pieces that the source has and nobody is asked for, the one that the
-/// fewest have. Near the end, where all that is left is asked for already, one
-/// that another source may be slow to give.
-std::optional<size_t> fetch_table::choose(const source_state& source) const {
+/// fewest have. Where all that is left is asked for already, one that is slow
+/// to come: what comes twice takes the room of what others wait for.
+std::optional<size_t> fetch_table::choose(const source_state& source,
+                                          time_point now) const {
   std::optional<size_t> rarest;
-  std::optional<size_t> twice;
+  std::optional<size_t> slow;
   size_t fewest = 0;
   for (const auto piece : order_) {
     if (here_[piece] || piece >= source.has.size() || !source.has[piece]
         || source.asked.count(piece) != 0)
       continue;
-    if (is_asked(piece)) {
-      twice = piece;
+    if (const auto asked = asked_last(piece)) {
+      if (*asked + limits::build::slow <= now)
+        slow = piece;
       continue;
     }
     const auto holders = holders_of(piece);
@@ -130,7 +132,7 @@ std::optional<size_t> fetch_table::choose(const source_state& source) const {
     if (fewest == 1)
       break; // Nothing is rarer.
   }
-  return rarest ? rarest : source.asked.empty() ? twice : std::nullopt;
+  return rarest ? rarest : source.asked.empty() ? slow : std::nullopt;
 }
 
 size_t fetch_table::holders_of(size_t piece) const {
@@ -141,10 +143,15 @@ size_t fetch_table::holders_of(size_t piece) const {
   return result;
 }
 
-bool fetch_table::is_asked(size_t piece) const {
-  return std::any_of(sources_.begin(), sources_.end(), [&](const auto& x) {
-    return x.second.asked.count(piece) != 0;
-  });
+/// When somebody was last asked for a piece that is on its way.
+std::optional<fetch_table::time_point>
+fetch_table::asked_last(size_t piece) const {
+  std::optional<time_point> result;
+  for (const auto& [name, source] : sources_)
+    if (const auto i = source.asked.find(piece);
+        i != source.asked.end() && (!result || *result < i->second))
+      result = i->second;
+  return result;
 }
 
 } // namespace roscell

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -15,6 +14,8 @@ namespace roscell {
 /// told what has happened.
 class fetch_table {
 public:
+  using time_point = std::chrono::steady_clock::time_point;
+
   /// What is asked next.
   struct question {
     size_t piece = 0;
@@ -39,8 +40,9 @@ public:
   /// The source has these pieces, as it says. One of another length is a lie.
   void announce(const std::string& source, std::vector<bool> pieces);
 
-  /// What to ask now; it counts as asked. Empty: nothing, at present.
-  std::vector<question> next();
+  /// What to ask now; it counts as asked. Empty: nothing, at present. When what
+  /// is being asked for has become slow there may be more.
+  std::vector<question> next(time_point now);
 
   /// A piece came, whole and right. True if it is new.
   bool take(const question& answered);
@@ -70,13 +72,14 @@ public:
 private:
   struct source_state {
     std::vector<bool> has;
-    std::set<size_t> asked;
-    int failures = 0; ///< In a row.
+    std::map<size_t, time_point> asked; ///< Pieces, and since when.
+    int failures = 0;                   ///< In a row.
   };
 
-  std::optional<size_t> choose(const source_state& source) const;
+  std::optional<size_t> choose(const source_state& source,
+                               time_point now) const;
   size_t holders_of(size_t piece) const;
-  bool is_asked(size_t piece) const;
+  std::optional<time_point> asked_last(size_t piece) const;
 
   std::vector<bool> here_;
   std::vector<size_t> order_; ///< The pieces, shuffled.

@@ -17,6 +17,8 @@ constexpr size_t few_sources = 2;
 /// Pieces of a build that are on their way at a time, each of which is in
 /// memory when it comes.
 constexpr size_t questions_of_fetch = 16;
+/// A piece that was asked for so long ago is asked of another source as well.
+constexpr seconds slow{3};
 /// Questions in a row that a source leaves without a piece before it is asked
 /// no more.
 constexpr int failures_in_a_row = 3;

@@ -191,6 +191,23 @@ test_a_source_that_dies_in_the_middle_is_named_and_the_other_one_gives_the_rest(
   lines_come later first
 }
 
+test_a_source_that_stalls_holds_up_a_fetch_for_seconds_only() {
+  local begin
+  start_slow head leg arm
+  add_to leg arm
+  begin_on "$other" hello
+  await_pieces "$other" 1
+  begin=$SECONDS
+  kill -STOP "${pid[$second]}"
+  runs_now hello
+  ((SECONDS - begin < 20)) || fail "it took $((SECONDS - begin)) s"
+  await head ".event == \"node_lost\" and .subject == \"$second\"" > "$scratch/lost"
+  kill -CONT "${pid[$second]}"
+  await_joined head "$second" "$(jq .sequence "$scratch/lost")"
+  run_on "$second" later
+  lines_come later first
+}
+
 test_a_source_whose_disk_gives_other_bytes_is_named_and_the_other_one_asked() {
   start_slow head leg arm
   add_to leg arm

@@ -61,3 +61,47 @@ test_data_flow_where_a_coordinator_and_a_member_are_of_an_earlier_version() {
 test_data_flow_where_a_member_is_of_an_earlier_version() {
   half_a_cell left
 }
+
+# take_echo: a skill that no node has, to be added.
+take_echo() {
+  cp -r "$ROSCELL_BUILD/skills/echo" "$scratch"
+  ask_no_cpu "$scratch/echo"
+}
+
+test_a_skill_goes_to_nodes_of_this_version_beside_one_of_an_earlier_version() {
+  need_earlier_version
+  build_of[left]=$ROSCELL_OLD
+  start_day
+  take_echo
+  "$ROSCELL" skill add "$scratch/echo" --to "$scratch/head/node.sock" \
+    > "$scratch/added" 2>&1 || fail "not added: $(cat "$scratch/added")"
+  run_on right hello
+  lines_come hello first
+  echo_task there left > "$scratch/task.json"
+  to head request "$scratch/task.json" > "$scratch/refusal.json" \
+    && fail "a node of an earlier version got it: $(cat "$scratch/refusal.json")"
+  expect "the code" "$(jq -r .error.code "$scratch/refusal.json")" \
+    no_feasible_allocation
+  has_line left "$scratch/refusal.json" || fail "$(cat "$scratch/refusal.json")"
+  possible=$EPOCHREALTIME
+  all_flow 10 "beside a skill that came"
+  stop_node right
+  start_host right
+  lines_come hello second
+  day_ends 10
+}
+
+test_a_coordinator_of_an_earlier_version_is_given_no_skill() {
+  need_earlier_version
+  local node
+  build_of[head]=$ROSCELL_OLD
+  start_day
+  take_echo
+  for node in head right; do
+    "$ROSCELL" skill add "$scratch/echo" --to "$scratch/$node/node.sock" \
+      > "$scratch/refusal" 2>&1 && fail "added: $(cat "$scratch/refusal")"
+    has_line "hint: " "$scratch/refusal" || fail "$(cat "$scratch/refusal")"
+  done
+  possible=$EPOCHREALTIME
+  day_ends 10
+}

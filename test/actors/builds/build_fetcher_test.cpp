@@ -17,6 +17,8 @@ using namespace roscell::test;
 
 namespace {
 
+constexpr auto npos = std::string::npos;
+
 /// What a node on paper answers.
 enum class source_mood { honest, liar, silent, stops_early, forger, hasty };
 
@@ -144,6 +146,28 @@ TEST_CASE_METHOD(fetch_fixture, "who gives other bytes is asked no more",
   REQUIRE(*result);
   CHECK(**result);
   CHECK(given["b"] <= limits::build::questions_of_source);
+}
+
+TEST_CASE_METHOD(fetch_fixture,
+                 "a source that stalls holds up a fetch for seconds only",
+                 "[builds]") {
+  const auto result = fetch({"a", "b"});
+  std::vector<source_question> stalled;
+  while (!asked.empty()) {
+    const auto next = asked.front();
+    asked.erase(asked.begin());
+    if (next.source.node == "b" && next.target.find("/pieces/") != npos)
+      stalled.push_back(next);
+    else
+      answer(next);
+  }
+  REQUIRE_FALSE(stalled.empty());
+  CHECK_FALSE(is_here());
+  time.advance(limits::build::slow);
+  answer_all();
+  CHECK(is_here());
+  REQUIRE(*result);
+  CHECK(**result);
 }
 
 TEST_CASE_METHOD(fetch_fixture,
