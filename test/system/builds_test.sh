@@ -198,11 +198,11 @@ test_a_source_that_stalls_holds_up_a_fetch_for_seconds_only() {
   begin_on "$other" hello
   await_pieces "$other" 1
   begin=$SECONDS
-  kill -STOP "${pid[$second]}"
+  ip link set "$(host_link "${host_number[$second]}")" down
   runs_now hello
   ((SECONDS - begin < 20)) || fail "it took $((SECONDS - begin)) s"
   await head ".event == \"node_lost\" and .subject == \"$second\"" > "$scratch/lost"
-  kill -CONT "${pid[$second]}"
+  ip link set "$(host_link "${host_number[$second]}")" up
   await_joined head "$second" "$(jq .sequence "$scratch/lost")"
   run_on "$second" later
   lines_come later first

@@ -196,3 +196,66 @@ test_a_device_of_an_endpoint_must_be_there() {
   grep -q "needs the device '/dev/lidar7'" "$scratch/stderr" \
     || fail "it says: $(cat "$scratch/stderr")"
 }
+
+# greeting_file: a task of each node by a variable.
+greeting_file() {
+  mkdir -p "$scratch/data"
+  echo one > "$scratch/data/in.txt"
+  cat << EOF
+type: task_request
+variables: {robot: null, greeting: hello, follow: true}
+task: greet-\${robot}
+pipeline:
+  - {id: say, operation: echo, model: plain, labels: {node: "\${robot}"},
+     parameters: {prefix: "\${greeting}, \${robot}: ", follow: "\${follow}"},
+     input: $scratch/data/in.txt, output: "$scratch/data/\${robot}.txt"}
+EOF
+}
+
+test_one_file_serves_each_node_by_its_variables() {
+  start_alone
+  start_node arm --join "$(discovery_of head)" --interface lo --cpu-floor 1
+  await_joined head arm
+  greeting_file > "$scratch/greet.yaml"
+  to head run "$scratch/greet.yaml" > "$scratch/out" 2>&1 && fail "it has no robot"
+  has_line ':2:13: the variable "robot" has no value' "$scratch/out" \
+    || fail "it says: $(cat "$scratch/out")"
+  to head run --set robot=arm --set follow=no "$scratch/greet.yaml" \
+    > "$scratch/out" 2>&1 && fail "'no' is neither true nor false"
+  has_line '"follow" is true or false' "$scratch/out" || fail "$(cat "$scratch/out")"
+  expect "tasks" "$(get head /v1/tasks | jq '.tasks | length')" 0
+  to head run --set robot=arm "$scratch/greet.yaml" > "$scratch/out" \
+    || fail "run refused it"
+  echo 'robot: head' > "$scratch/head.yaml"
+  to head request --values "$scratch/head.yaml" --set greeting=moin \
+    "$scratch/greet.yaml" > "$scratch/out" || fail "$(cat "$scratch/out")"
+  await_line "$scratch/data/arm.txt" 'hello, arm: one'
+  await_line "$scratch/data/head.txt" 'moin, head: one'
+  to head plan --set robot=arm "$scratch/greet.yaml" -o json > "$scratch/out" \
+    || fail "$(cat "$scratch/out")"
+  expect "the node" "$(jq -r '.allocations[0].node' "$scratch/out")" arm
+}
+
+test_a_pattern_ends_the_tasks_of_such_names_and_no_others() {
+  local name
+  start_alone
+  greeting_file > "$scratch/greet.yaml"
+  for name in one two; do
+    sed "s/greet-.*/greet-$name/" "$scratch/greet.yaml" > "$scratch/$name.yaml"
+    to head run --set robot=head "$scratch/$name.yaml" > "$scratch/out" \
+      || fail "run refused it"
+  done
+  chain_task > "$scratch/chain.yaml"
+  to head run "$scratch/chain.yaml" > "$scratch/out" || fail "run refused it"
+  to head stop 'x*' > "$scratch/out" 2>&1 && fail "nothing is named so"
+  to head stop 'greet-*' > "$scratch/out" 2> "$scratch/notes" < /dev/null \
+    || fail "$(cat "$scratch/notes")"
+  has_line 'these tasks are ended: greet-one, greet-two' "$scratch/notes" \
+    || fail "it does not say which: $(cat "$scratch/notes")"
+  expect "tasks" "$(get head /v1/tasks | jq -c '[.tasks[].task]')" '["chain"]'
+  # What is gone already is answered as it was then.
+  to head stop greet-one chain -o json > "$scratch/out" || fail "$(cat "$scratch/out")"
+  expect "instances of both" "$(jq -c '[.[].instances | length]' "$scratch/out")" \
+    '[1,2]'
+  expect "tasks" "$(get head /v1/tasks | jq '.tasks | length')" 0
+}

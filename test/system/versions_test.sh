@@ -77,7 +77,7 @@ test_a_skill_goes_to_nodes_of_this_version_beside_one_of_an_earlier_version() {
     > "$scratch/added" 2>&1 || fail "not added: $(cat "$scratch/added")"
   run_on right hello
   lines_come hello first
-  echo_task there left > "$scratch/task.json"
+  echo_task elsewhere left > "$scratch/task.json"
   to head request "$scratch/task.json" > "$scratch/refusal.json" \
     && fail "a node of an earlier version got it: $(cat "$scratch/refusal.json")"
   expect "the code" "$(jq -r .error.code "$scratch/refusal.json")" \

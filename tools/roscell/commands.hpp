@@ -29,6 +29,7 @@ void add_show_commands(CLI::App& app, action& chosen);
 
 /// run, stop, restart.
 void add_task_commands(CLI::App& app, action& chosen);
+void add_stop_command(CLI::App& app, action& chosen);
 
 void add_check_command(CLI::App& app, action& chosen);
 

@@ -107,9 +107,11 @@ json task_file::request() const {
   return result;
 }
 
-task_file read_task_file(const std::string& name) {
+task_file read_task_file(const std::string& name, const file_values& values) {
   task_file result{name, read_file(name), {}, {}};
   auto parsed = parse_document(result.text, format_of(name, result.text));
+  if (auto* document = std::get_if<json>(&parsed))
+    parsed = fill_from(std::move(*document), values);
   if (auto* why = std::get_if<failure>(&parsed))
     throw wrong_document{std::move(result), std::move(*why)};
   result.document = std::get<json>(std::move(parsed));

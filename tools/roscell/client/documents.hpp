@@ -2,6 +2,7 @@
 
 #include "messages/codec/json_codec.hpp"
 #include "messages/failure.hpp"
+#include "tools/roscell/client/file_values.hpp"
 
 #include <cstddef>
 #include <string>
@@ -34,9 +35,9 @@ struct task_file {
   json request() const;
 };
 
-/// Reads such a file. Throws wrong_document if it cannot be parsed, and
-/// command_error if it cannot be read.
-task_file read_task_file(const std::string& name);
+/// Reads such a file and fills in its variables. Throws wrong_document if it
+/// cannot be parsed or filled in, and command_error if it cannot be read.
+task_file read_task_file(const std::string& name, const file_values& values);
 
 /// A document is refused: what is wrong is shown with marks under the places.
 class wrong_document : public std::runtime_error {

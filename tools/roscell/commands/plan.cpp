@@ -34,6 +34,7 @@ struct plan_options {
   std::string why;
   std::vector<std::string> without;
   std::vector<std::string> with; ///< Files.
+  file_values values;
   bool preempt = false;
   connection_options connection;
 };
@@ -157,6 +158,8 @@ bool is_on_paper(const plan_options& options, const json& document) {
 
 plan_result plan_of(const plan_options& options, const std::string& text) {
   auto document = document_of(options.file, text);
+  if (auto* read = std::get_if<json>(&document))
+    document = fill_from(std::move(*read), options.values);
   if (auto* why = std::get_if<failure>(&document))
     return std::move(*why);
   auto& content = std::get<json>(document);
@@ -219,12 +222,14 @@ void add_plan_command(CLI::App& app, action& chosen) {
   command
       ->add_option("--without", options->without,
                    "Plan as if this node were not there; may be repeated")
-      ->option_text("NODE");
+      ->option_text("NODE")
+      ->allow_extra_args(false);
   command
       ->add_option("--with", options->with,
                    "Plan as if the nodes of this file were there, with every "
                    "skill; may be repeated")
-      ->option_text("FILE");
+      ->option_text("FILE")
+      ->allow_extra_args(false);
   command
       ->add_option("--why", options->why,
                    "Show the best alternative for this step and its cost")
@@ -232,6 +237,7 @@ void add_plan_command(CLI::App& app, action& chosen) {
   command->add_flag("--preempt", options->preempt,
                     "Where it does not fit, plan as if instances of lower "
                     "priority were preempted, and show them");
+  add_value_options(*command, options->values);
   add_connection_options(*command, options->connection);
   add_output_option(*command, options->output);
   command->callback([&chosen, options] {

@@ -27,18 +27,25 @@ struct request_options {
   std::string timeout = "120";
   bool progress = false;
   bool wait_finished = false;
+  file_values values;
   preemption_options preemption;
 };
 
-/// What is sent of a file: the JSON that YAML means. JSON goes as it is, and
-/// what is wrong with it is for the node to say.
+/// What is sent of a file: the JSON that YAML means, with its variables filled
+/// in. JSON without any goes as it is, and what is wrong with it is for the
+/// node to say.
 std::variant<std::string, failure> body_of(const request_options& options,
                                            std::string text) {
   const auto format = format_of(options.file, text);
-  if (format == document_format::json && !options.preemption.preempt
-      && !options.preemption.force)
+  const bool has_variables = text.find("\"variables\"") != std::string::npos
+                             || !options.values.set.empty()
+                             || !options.values.files.empty();
+  if (format == document_format::json && !has_variables
+      && !options.preemption.preempt && !options.preemption.force)
     return text;
   auto parsed = parse_document(text, format);
+  if (auto* read = std::get_if<json>(&parsed))
+    parsed = fill_from(std::move(*read), options.values);
   if (auto* why = std::get_if<failure>(&parsed))
     return std::move(*why);
   auto& document = std::get<json>(parsed);
@@ -122,6 +129,7 @@ void add_request_command(CLI::App& app, action& chosen) {
   command->add_flag("--wait-finished", options->wait_finished,
                     "Wait until the task has ended by itself; the exit code is "
                     "that of its first step that failed");
+  add_value_options(*command, options->values);
   add_preemption_options(*command, options->preemption);
   command->callback([&chosen, options] {
     chosen = [options] { return send_request(*options); };

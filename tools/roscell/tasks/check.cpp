@@ -23,6 +23,7 @@ namespace {
 struct check_options {
   skill_source skills;
   std::string file;
+  file_values values;
   bool quiet = false;
 };
 
@@ -107,7 +108,7 @@ task_reading read_request(const task_file& file, const task_request& request,
 }
 
 int check(const check_options& options) {
-  const auto file = read_task_file(options.file);
+  const auto file = read_task_file(options.file, options.values);
   check_form(file);
   const auto request = file.request().get<task_request>();
   const auto context = context_of(options, file);
@@ -148,6 +149,7 @@ void add_check_command(CLI::App& app, action& chosen) {
                    "The task request or plan document; - for standard input")
       ->required()
       ->option_text(" ");
+  add_value_options(*command, options->values);
   command->add_flag("-q,--quiet", options->quiet,
                     "Do not print the request written out");
   add_skill_source(*command, options->skills);

@@ -7,6 +7,7 @@
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/tasks/preemption.hpp"
+#include "tools/roscell/tasks/task_options.hpp"
 #include "tools/roscell/tasks/wait_finished.hpp"
 #include "tools/roscell/view/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
@@ -21,36 +22,16 @@ namespace roscell::cli {
 
 namespace {
 
-struct task_options {
-  connection_options connection;
-  std::string output = "table";
-  std::string timeout = "120";
-  std::string subject; ///< A file, a task, or an instance.
+struct run_options : task_options {
+  std::string file;
+  file_values values;
   bool wait_finished = false;
-  bool force = false;
   preemption_options preemption;
-
-  bool as_json() const {
-    return output == "json";
-  }
 };
 
-using options_ptr = std::shared_ptr<task_options>;
-
-/// Sends a request about a task and tells what goes on until it is answered.
-json ask_about(const task_options& options, const std::string& task,
-               const json& request) {
-  const node_client node{options.connection};
-  const auto lines = [task](const event& e) { return progress_lines(e, task); };
-  return post_with_progress(node, request.dump(),
-                            parse_duration(options.timeout), lines);
-}
-
-/// The same where a refusal has no document to point into.
-json ask_or_throw(const task_options& options, const std::string& task,
-                  const json& request) {
-  return unless_refused(ask_about(options, task, request), options.as_json());
-}
+struct restart_options : task_options {
+  std::string subject; ///< A task, or an instance.
+};
 
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const auto& warning : warnings)
@@ -65,8 +46,8 @@ void add_request_id(json& request) {
     request["request_id"] = "run-" + to_hex(random_bytes(bytes));
 }
 
-int run_task(const task_options& options) {
-  const auto file = read_task_file(options.subject);
+int run_task(const run_options& options) {
+  const auto file = read_task_file(options.file, options.values);
   auto request = file.request();
   apply(options.preemption, request);
   add_request_id(request);
@@ -91,29 +72,8 @@ int run_task(const task_options& options) {
   return exit_done;
 }
 
-/// What is not stop-safe yet is waited for, unless a program has asked.
-int stop_task(const task_options& options) {
-  const node_client node{options.connection};
-  const auto& task = options.subject;
-  const auto ask = [&] {
-    return ask_or_throw(options, task,
-                        message_json(task_termination{task, options.force}));
-  };
-  const auto kept = kept_events_of(node);
-  auto reply = ask();
-  auto reported = reply.get<task_terminated>();
-  if (!reported.waiting.empty() && !options.as_json()) {
-    for (const auto& x : reported.waiting)
-      print_note(waiting_text(x));
-    wait_until_gone(node, task, kept.empty() ? 0 : kept.back().sequence);
-    reported = ask().get<task_terminated>();
-  }
-  print(options.as_json() ? pretty(reply) : terminated_view(reported));
-  return exit_done;
-}
-
 /// What a name stands for: a task, else an instance of one.
-task_restart restart_of(const task_options& options) {
+task_restart restart_of(const restart_options& options) {
   const node_client node{options.connection};
   const auto tasks = node.get("/v1/tasks").get<task_description>();
   for (const auto& task : tasks.tasks) {
@@ -129,7 +89,7 @@ task_restart restart_of(const task_options& options) {
                       "`roscell tasks` and `roscell instances` list them"};
 }
 
-int restart(const task_options& options) {
+int restart(const restart_options& options) {
   const auto request = restart_of(options);
   const auto reply = ask_or_throw(options, request.task, message_json(request));
   print(options.as_json()
@@ -138,24 +98,8 @@ int restart(const task_options& options) {
   return exit_done;
 }
 
-CLI::App* add_task_command(CLI::App& app, const char* name,
-                           const char* description, const char* footer,
-                           const options_ptr& options) {
-  auto* command = app.add_subcommand(name, description);
-  command->footer(footer);
-  add_connection_options(*command, options->connection);
-  add_timeout_option(*command, options->timeout);
-  add_output_option(*command, options->output);
-  return command;
-}
-
-void add_force_option(CLI::App& command, task_options& options) {
-  command.add_flag("--force", options.force,
-                   "Do not wait for what is not stop-safe");
-}
-
 void add_run(CLI::App& app, action& chosen) {
-  auto options = std::make_shared<task_options>();
+  auto options = std::make_shared<run_options>();
   auto* command = add_task_command(
       app, "run", "Start a task and wait until all of it runs.",
       "The same file again changes nothing where the task runs, starts again "
@@ -164,16 +108,18 @@ void add_run(CLI::App& app, action& chosen) {
       "ended once more as a whole.\nStandard error shows what goes on, and "
       "shows each place of the file that\nis wrong.\n\n"
       "Examples:\n  roscell run task.yaml\n"
+      "  roscell run --set camera=arm-1 --set rate_hz=5 task.yaml\n"
       "  roscell new task echo | roscell run -",
-      options);
+      *options);
   command
-      ->add_option("FILE", options->subject,
+      ->add_option("FILE", options->file,
                    "The task request; - for standard input")
       ->required()
       ->option_text(" ");
   command->add_flag("--wait-finished", options->wait_finished,
                     "Wait until the task has ended by itself; the exit code is "
                     "that of its first step that failed");
+  add_value_options(*command, options->values);
   add_preemption_options(*command, options->preemption);
   command->callback([&chosen, options] {
     chosen = [options] {
@@ -182,33 +128,15 @@ void add_run(CLI::App& app, action& chosen) {
   });
 }
 
-void add_stop(CLI::App& app, action& chosen) {
-  auto options = std::make_shared<task_options>();
-  auto* command = add_task_command(
-      app, "stop", "End a task and remove its instances everywhere.",
-      "What has to be stop-safe before it ends is waited for. Ctrl-C ends the "
-      "waiting only.\n\n"
-      "Examples:\n  roscell stop fleet-poses\n"
-      "  roscell stop fleet-poses --force",
-      options);
-  add_force_option(*command, *options);
-  command->add_option("TASK", options->subject, "Its name")
-      ->required()
-      ->option_text(" ");
-  command->callback([&chosen, options] {
-    chosen = [options] { return stop_task(*options); };
-  });
-}
-
 void add_restart(CLI::App& app, action& chosen) {
-  auto options = std::make_shared<task_options>();
+  auto options = std::make_shared<restart_options>();
   auto* command = add_task_command(
       app, "restart",
       "End the instances of a task, or one of them, and start them again.",
       "What runs begins anew on its node, what has ended where it fits.\n\n"
       "Examples:\n  roscell restart fleet-poses\n"
       "  roscell restart fleet-poses-camera-1a2b3c4d",
-      options);
+      *options);
   add_force_option(*command, *options);
   command->add_option("TASK|INSTANCE", options->subject, "The name of either")
       ->required()
@@ -221,7 +149,7 @@ void add_restart(CLI::App& app, action& chosen) {
 
 void add_task_commands(CLI::App& app, action& chosen) {
   add_run(app, chosen);
-  add_stop(app, chosen);
+  add_stop_command(app, chosen);
   add_restart(app, chosen);
 }
 
