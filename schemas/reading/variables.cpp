@@ -16,9 +16,9 @@ namespace {
 constexpr const char* member = "variables";
 constexpr std::string_view opening = "${";
 
-failure wrong(std::string message, std::string where, std::string hint = {}) {
+failure wrong(std::string message, std::string where) {
   return {error_code::schema_violation, std::move(message), std::move(where),
-          std::move(hint), ""};
+          "", ""};
 }
 
 bool is_name(std::string_view text, const variable_limits& limits) {
@@ -114,9 +114,10 @@ std::variant<json, failure> values_of(json values, const given_values& given) {
   }
   for (const auto& [name, value] : values.items())
     if (value.is_null())
-      return wrong("the variable " + in_quotes(name) + " has no value",
-                   std::string{"/"} + member + "/" + name,
-                   "give one with --set " + name + "=VALUE");
+      return wrong("the variable " + in_quotes(name)
+                       + " has no value; give one with --set " + name
+                       + "=VALUE",
+                   std::string{"/"} + member + "/" + name);
   return values;
 }
 
@@ -161,15 +162,14 @@ private:
     if (end == std::string::npos || !is_name(name, limits_)) {
       problem_ = wrong("expected the name of a variable and '}' behind \"${\" "
                        "in "
-                           + in_quotes(text),
-                       where, "write $${ for the two characters themselves");
+                           + in_quotes(text)
+                           + "; $${ stands for the two characters themselves",
+                       where);
       return nullptr;
     }
     const auto found = values_.find(name);
     if (found == values_.end()) {
-      problem_ = wrong(unknown_text(name, values_), where,
-                       "name it in \"variables\", or write $${ for the two "
-                       "characters themselves");
+      problem_ = wrong(unknown_text(name, values_), where);
       return nullptr;
     }
     next = end + 1;
@@ -237,9 +237,9 @@ std::variant<json, failure> fill_variables(json document,
   if (!document.is_object() || !document.contains(member)) {
     if (given.empty())
       return document;
-    return wrong("values are given, and the document has no \"variables\"", "",
-                 "name them there, each with its default: \"variables\": "
-                 "{\"rate_hz\": 5}");
+    return wrong("values are given, and the document has no \"variables\" to "
+                 "take them",
+                 "");
   }
   auto declared = declared_in(document, limits);
   if (auto* why = std::get_if<failure>(&declared))
