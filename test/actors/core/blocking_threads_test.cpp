@@ -145,13 +145,13 @@ TEST_CASE("actors that block now and then keep one thread among them",
   std::vector<blocked_actor> actors;
   for (int i = 0; i < 5; ++i)
     actors.push_back(x.start());
-  // One that goes from its start to its first message may have a second thread
-  // for a moment.
-  CHECK(x.becomes(1));
   for (const auto& actor : actors)
     caf::anon_send(actor, 1);
   REQUIRE(x.at->await(actors.size()));
-  CHECK(x.context.blocking->size() == actors.size());
+  // One that goes from its start to its first message may have a second thread
+  // for a moment.
+  CHECK(x.context.blocking->size() >= actors.size());
+  CHECK(x.context.blocking->size() <= 2 * actors.size());
   x.at->open();
   CHECK(x.becomes(1));
   // That one is not given up for new ones.
