@@ -44,6 +44,22 @@ struct counter : input_handler {
   stream config;
 };
 
+/// Gives its numbers only once something was kept for them.
+struct late_counter : counter {
+  late_counter(const stop_event& e, const stream_context& c)
+      : counter(c), kept(e) {
+    // nop
+  }
+
+  void run(frame_sink& sink, const stop_event& stop) override {
+    if (!kept.wait_until(stop_event::clock::now() + patience))
+      throw stream_error("nothing was kept");
+    counter::run(sink, stop);
+  }
+
+  const stop_event& kept;
+};
+
 /// What happened in a test, in order.
 struct journal {
   std::string text;
@@ -118,10 +134,15 @@ struct repeater : executor {
 
 /// Keeps the first input's frames until one of the second comes.
 struct joiner : executor {
+  explicit joiner(stop_event& e) : kept(e) {
+    // nop
+  }
+
   void process(const frame& input, emitter& output) override {
     if (input.port == 0) {
       waiting = input.payload;
       set_kept();
+      kept.set();
     } else if (!waiting.empty()) {
       set_worked_on(0);
       output.emit(waiting);
@@ -133,6 +154,7 @@ struct joiner : executor {
     // nop
   }
 
+  stop_event& kept;
   std::string waiting;
 };
 
@@ -174,8 +196,9 @@ struct fixture {
     parts.add_executor("careful", [this](const environment&) {
       return std::make_unique<careful>(log);
     });
-    parts.add_executor(
-        "join", [](const environment&) { return std::make_unique<joiner>(); });
+    parts.add_executor("join", [this](const environment&) {
+      return std::make_unique<joiner>(kept);
+    });
     env.model = "repeat";
     env.inputs = {{"finite", "3", "number"}};
     env.outputs = {{"journal", "j", "digits"}};
@@ -195,6 +218,7 @@ struct fixture {
 
   registry parts;
   environment env;
+  stop_event kept;
   journal log;
   std::string status;
   std::string frames;
@@ -268,8 +292,11 @@ TEST_CASE_METHOD(fixture,
 
 TEST_CASE_METHOD(fixture, "a frame that is kept for another counts when it is "
                           "worked on") {
+  parts.add_input("late", [this](const stream_context& c) {
+    return std::make_unique<late_counter>(kept, c);
+  });
   env.model = "join";
-  env.inputs = {{"finite", "3", "image"}, {"finite", "3", "info"}};
+  env.inputs = {{"finite", "3", "image"}, {"late", "3", "info"}};
   CHECK(run() == exit_code::done);
   const auto emitted = std::count(log.text.begin(), log.text.end(), ' ') - 1;
   CAPTURE(log.text);
