@@ -6,6 +6,7 @@
 #include <limits>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include <pthread.h>
 
@@ -32,6 +33,11 @@ void blocking_threads::leave() {
 void blocking_threads::exec_later(caf::resumable* job) {
   {
     const std::lock_guard lock{mutex_};
+    const auto [at, is_new] = running_.try_emplace(job, false);
+    if (!is_new) {
+      at->second = true;
+      return;
+    }
     if (!resting_.empty()) {
       // The latest: those who have long rested can go on until they end.
       auto* const taken = resting_.back();
@@ -66,6 +72,7 @@ void blocking_threads::start(caf::resumable* job) {
     {
       const std::lock_guard lock{mutex_};
       --threads_;
+      running_.erase(job);
     }
     // No thread can be had: better a worker that is blocked than an actor that
     // does not answer.
@@ -74,7 +81,7 @@ void blocking_threads::start(caf::resumable* job) {
 }
 
 void blocking_threads::work(caf::resumable* job) {
-  for (; job != nullptr; job = rest())
+  for (; job != nullptr; job = job_after(job))
     run(job);
 }
 
@@ -85,8 +92,13 @@ void blocking_threads::run(caf::resumable* job) {
   intrusive_ptr_release(job);
 }
 
-caf::resumable* blocking_threads::rest() {
+/// The former job may be gone: it is no more than a name here.
+caf::resumable* blocking_threads::job_after(caf::resumable* done) {
   std::unique_lock lock{mutex_};
+  const auto former = running_.find(done);
+  if (std::exchange(former->second, false))
+    return done;
+  running_.erase(former);
   resting self;
   resting_.push_back(&self);
   const auto is_woken = [&] { return self.job != nullptr || actors_ == 0; };

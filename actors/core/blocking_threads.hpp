@@ -8,6 +8,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -20,7 +21,9 @@ namespace roscell {
 /// keep a thread for each of them.
 ///
 /// There are never more threads than actors, as each of them works on one
-/// thread at a time: none waits for another that hangs on a wedged disk. A
+/// thread at a time: none waits for another that hangs on a wedged disk. An
+/// actor that has a message again before its thread has let go of it goes on
+/// there, so it does not take a second one for that moment. A
 /// thread that has rested for `longest_rest` ends, but for one that stays.
 /// All end with the last actor.
 class blocking_threads final
@@ -58,8 +61,8 @@ private:
   /// Until it has a message to wait for, or has ended.
   void run(caf::resumable* job);
 
-  /// The next job of this thread; null: it is to end.
-  caf::resumable* rest();
+  /// The next job of this thread after that one; null: it is to end.
+  caf::resumable* job_after(caf::resumable* done);
 
   /// Where its actors send from: what they send to runs elsewhere.
   caf::scoped_execution_unit outside_;
@@ -67,6 +70,8 @@ private:
   std::size_t actors_ = 0;
   std::size_t threads_ = 0;
   std::vector<resting*> resting_; // Who has rested the longest comes first.
+  /// What threads work on, and whether it is to be resumed once more.
+  std::map<caf::resumable*, bool> running_;
 };
 
 } // namespace roscell
