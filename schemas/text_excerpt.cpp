@@ -121,4 +121,15 @@ std::string_view closest_word(std::string_view typed,
   return result;
 }
 
+std::string unknown_name_text(const std::string& kind, std::string_view name,
+                              const std::vector<std::string_view>& known) {
+  auto result = "there is no " + kind + " " + in_quotes(name);
+  if (const auto meant = closest_word(name, known); !meant.empty())
+    return result + "; did you mean " + in_quotes(meant) + "?";
+  result += known.empty() ? "" : "; there are";
+  for (const auto& each : known)
+    result += (&each == &known.front() ? " " : ", ") + std::string{each};
+  return result;
+}
+
 } // namespace roscell

@@ -35,4 +35,9 @@ std::string shown_value(const json& value);
 std::string_view closest_word(std::string_view typed,
                               const std::vector<std::string_view>& words);
 
+/// What is said of a name that is none of the known ones: `there is no variable
+/// "rat_hz"; did you mean "rate_hz"?`, or which there are.
+std::string unknown_name_text(const std::string& kind, std::string_view name,
+                              const std::vector<std::string_view>& known);
+
 } // namespace roscell

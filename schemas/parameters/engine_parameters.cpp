@@ -95,13 +95,7 @@ std::string unknown_parameter_text(const declared_parameters& known,
   std::vector<std::string_view> names;
   for (const auto& [each, x] : known)
     names.emplace_back(each);
-  auto result = "there is no parameter " + in_quotes(name);
-  if (const auto meant = closest_word(name, names); !meant.empty())
-    return result + "; did you mean " + in_quotes(meant) + "?";
-  result += names.empty() ? "" : "; there are";
-  for (const auto& each : names)
-    result += (&each == &names.front() ? " " : ", ") + std::string{each};
-  return result;
+  return unknown_name_text("parameter", name, names);
 }
 
 } // namespace

@@ -45,13 +45,7 @@ std::string unknown_text(std::string_view name, const json& values) {
   std::vector<std::string_view> names;
   for (const auto& [known, value] : values.items())
     names.emplace_back(known);
-  auto result = "there is no variable " + in_quotes(name);
-  if (const auto meant = closest_word(name, names); !meant.empty())
-    return result + "; did you mean " + in_quotes(meant) + "?";
-  result += names.empty() ? "" : "; there are";
-  for (const auto& each : names)
-    result += (&each == &names.front() ? " " : ", ") + std::string{each};
-  return result;
+  return unknown_name_text("variable", name, names);
 }
 
 /// The names with their defaults, which have been checked.
