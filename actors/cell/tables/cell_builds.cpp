@@ -37,6 +37,7 @@ cell_build cell_builds::unpack(const std::string& hash, const packed_build& x) {
   auto result = json::from_cbor(x.rest.begin(), x.rest.end()).get<cell_build>();
   result.build.hash = hash;
   result.skill.hash = hash;
+  result.skill.version = x.version;
   result.skill.descriptor.operation = x.operation;
   return result;
 }
@@ -44,10 +45,9 @@ cell_build cell_builds::unpack(const std::string& hash, const packed_build& x) {
 std::optional<failure> cell_builds::refusal(const cell_build& x) const {
   const auto& skill = x.skill;
   for (const auto& [hash, packed] : builds_) {
-    if (hash == x.build.hash || packed.operation != skill.descriptor.operation)
-      continue;
-    const auto known = unpack(hash, packed).skill;
-    if (known.version != skill.version || !shares_architecture(known, skill))
+    if (hash == x.build.hash || packed.operation != skill.descriptor.operation
+        || packed.version != skill.version
+        || !shares_architecture(unpack(hash, packed).skill, skill))
       continue;
     return failure{error_code::conflict,
                    "version " + skill.version + " of '"
@@ -70,8 +70,9 @@ void cell_builds::add(const cell_build& x) {
   auto rest = x;
   rest.build.hash.clear();
   rest.skill.hash.clear();
+  rest.skill.version.clear();
   rest.skill.descriptor.operation.clear();
-  packed_build packed{x.skill.descriptor.operation, {}};
+  packed_build packed{x.skill.descriptor.operation, x.skill.version, {}};
   json::to_cbor(json(rest), packed.rest);
   packed.rest.shrink_to_fit();
   builds_[x.build.hash] = std::move(packed);

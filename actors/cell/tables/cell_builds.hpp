@@ -60,6 +60,7 @@ public:
 private:
   struct packed_build {
     std::string operation;
+    std::string version;
     std::string rest; ///< CBOR.
   };
 
