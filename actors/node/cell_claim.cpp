@@ -191,7 +191,9 @@ caf::expected<uint8_t> claim_cell(const node_config& config,
   const auto& own = data.identity.uuid;
   std::set<std::string> asked;
   std::vector<announcement> seen;
-  auto claims = former_place(config, data, edges);
+  if (auto refusal = refuse_owner(former_place(config, data, edges), config,
+                                  data, edges, context))
+    return refusal;
   // Who is heard first may claim what it cannot prove, where the owner of the
   // name, who is slower, can. More than two looks would let unauthenticated
   // peers hold up the start for ever.
@@ -200,14 +202,12 @@ caf::expected<uint8_t> claim_cell(const node_config& config,
     if (!around)
       return around.error();
     seen = std::move(*around);
-    const auto heard = claims_among(seen, config, own, edges);
-    claims.insert(claims.end(), heard.begin(), heard.end());
-    claims = without_repetitions(std::move(claims), asked);
+    const auto claims =
+        without_repetitions(claims_among(seen, config, own, edges), asked);
     if (claims.empty())
       break;
     if (auto refusal = refuse_owner(claims, config, data, edges, context))
       return refusal;
-    claims.clear();
   }
   if (auto why = keep_address(data, edges.http_address))
     return why;
