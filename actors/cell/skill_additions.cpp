@@ -24,6 +24,7 @@ namespace {
 struct addition {
   skill_addition request;
   cell_build build;
+  build_remains copies; ///< Those that the nodes let go if it fails.
   std::vector<std::string> candidates; ///< For the second copy, the best first.
   size_t tried = 0;
   std::string last_problem;
@@ -32,8 +33,26 @@ struct addition {
 
 using addition_ptr = std::shared_ptr<addition>;
 
-void refuse_addition(const addition_ptr& x, const failure& why) {
+/// The copies that it has made go.
+void refuse_addition(coordinator_pointer self, const addition_ptr& x,
+                     const failure& why) {
+  self->state.builds.restore(x->copies);
+  for (const auto& node : x->copies.nodes)
+    release_remains(self, node);
+  self->state.additions.erase(x->build.build.hash);
   x->promise.deliver(to_error(why));
+}
+
+/// That a node holds a copy is written down before it does: a coordinator that
+/// ends before the addition has ended has it let go when both are back.
+template <class Next>
+void expect_copy(coordinator_pointer self, const addition_ptr& x,
+                 const std::string& node, Next next) {
+  x->copies.nodes.push_back(node);
+  keep_records(
+      self, {{remains_table, x->build.build.hash, json(x->copies).dump()}},
+      std::move(next),
+      [self, x](const failure& why) { refuse_addition(self, x, why); });
 }
 
 /// Nodes that can hold the second copy: the one that has it already, then
@@ -67,6 +86,7 @@ void on_addition_persisted(coordinator_pointer self, const addition_ptr& x) {
                                      {"version", skill.version},
                                      {"bytes", x->build.build.bytes},
                                      {"keepers", x->build.keepers}});
+  self->state.additions.erase(x->build.build.hash);
   x->promise.deliver(skill_added{x->build});
 }
 
@@ -75,40 +95,42 @@ void on_addition_persisted(coordinator_pointer self, const addition_ptr& x) {
 void record_addition(coordinator_pointer self, const addition_ptr& x) {
   auto& builds = self->state.builds;
   if (const auto why = builds.refusal(x->build))
-    return refuse_addition(x, *why);
+    return refuse_addition(self, x, *why);
   builds.add(x->build);
   const json record = x->build;
   keep_records(
-      self, {{builds_table, x->build.build.hash, record.dump()}},
+      self,
+      {{builds_table, x->build.build.hash, record.dump()},
+       {remains_table, x->build.build.hash, ""}},
       [self, x] { on_addition_persisted(self, x); },
       [self, x](const failure& why) {
         self->state.builds.remove({x->build.build.hash, {}, 0});
-        refuse_addition(x, why);
+        refuse_addition(self, x, why);
       });
 }
 
 /// From here on the copy on this node stays, too.
-void conclude_addition(coordinator_pointer self, const addition_ptr& x) {
+void pin_own_copy(coordinator_pointer self, const addition_ptr& x) {
   const auto& st = self->state;
   self->request(st.setup.keeper, limits::build::disk,
                 pin_build{x->build.build.hash, true, st.setup.cell})
-      .then(
-          [self, x](const build_held&) { record_addition(self, x); },
-          [x](const caf::error& why) { refuse_addition(x, to_failure(why)); });
+      .then([self, x](const build_held&) { record_addition(self, x); },
+            [self, x](const caf::error& why) {
+              refuse_addition(self, x, to_failure(why));
+            });
 }
 
-/// Has the next candidate hold the second copy. In a cell of one node, or where
-/// all others are of an earlier version, there is none.
-void keep_second_copy(coordinator_pointer self, const addition_ptr& x) {
+void conclude_addition(coordinator_pointer self, const addition_ptr& x) {
+  expect_copy(self, x, self->state.setup.self.name,
+              [self, x] { pin_own_copy(self, x); });
+}
+
+void keep_second_copy(coordinator_pointer self, const addition_ptr& x);
+
+/// The node may have ended meanwhile: then the next one is asked.
+void ask_for_second_copy(coordinator_pointer self, const addition_ptr& x,
+                         const std::string& node) {
   auto& st = self->state;
-  if (x->candidates.empty())
-    return conclude_addition(self, x);
-  if (x->tried == x->candidates.size())
-    return refuse_addition(
-        x, {error_code::unreachable,
-            "no second node could be given the build: " + x->last_problem, "",
-            "it is on the coordination node; add it again", ""});
-  const auto node = x->candidates[x->tried++];
   const auto* entry = st.registry.find_name(node);
   if (entry == nullptr || !entry->agent)
     return keep_second_copy(self, x);
@@ -127,6 +149,22 @@ void keep_second_copy(coordinator_pointer self, const addition_ptr& x) {
           });
 }
 
+/// Has the next candidate hold the second copy. In a cell of one node, or where
+/// all others are of an earlier version, there is none.
+void keep_second_copy(coordinator_pointer self, const addition_ptr& x) {
+  if (x->candidates.empty())
+    return conclude_addition(self, x);
+  if (x->tried == x->candidates.size())
+    return refuse_addition(
+        self, x,
+        {error_code::unreachable,
+         "no second node could be given the build: " + x->last_problem, "",
+         "it is on the coordination node; add it again", ""});
+  const auto node = x->candidates[x->tried++];
+  expect_copy(self, x, node,
+              [self, x, node] { ask_for_second_copy(self, x, node); });
+}
+
 void on_described(coordinator_pointer self, const addition_ptr& x,
                   const build_described& known) {
   auto& st = self->state;
@@ -134,7 +172,7 @@ void on_described(coordinator_pointer self, const addition_ptr& x,
   x->build.skill.added_unix_ms = x->build.added_unix_ms = unix_now_ms();
   x->build.keepers = {st.setup.self.name};
   if (const auto why = st.builds.refusal(x->build))
-    return refuse_addition(x, *why);
+    return refuse_addition(self, x, *why);
   keep_second_copy(self, x);
 }
 
@@ -142,11 +180,11 @@ void on_described(coordinator_pointer self, const addition_ptr& x,
 void describe_addition(coordinator_pointer self, const addition_ptr& x) {
   self->request(self->state.setup.keeper, limits::build::disk,
                 describe_build{x->request.build.hash})
-      .then(
-          [self, x](const build_described& known) {
-            on_described(self, x, known);
-          },
-          [x](const caf::error& why) { refuse_addition(x, to_failure(why)); });
+      .then([self,
+             x](const build_described& known) { on_described(self, x, known); },
+            [self, x](const caf::error& why) {
+              refuse_addition(self, x, to_failure(why));
+            });
 }
 
 } // namespace
@@ -172,18 +210,24 @@ caf::result<skill_added> add_skill(coordinator_pointer self,
     return fail(error_code::unknown_node,
                 "this cell has no node '" + request.node + "'", "/node",
                 "`roscell nodes` lists them");
+  // Where one of two fails, its copies go, which the other counts on.
+  if (!st.additions.insert(request.build.hash).second)
+    return fail(error_code::conflict, "this build is being added already",
+                "/build", "wait for that, and look with `roscell skill list`");
   auto x = std::make_shared<addition>();
   x->request = request;
   x->build.build = request.build;
+  x->copies = {request.build.hash, {}, unix_now_ms()};
   x->candidates = second_keepers(st, request.node);
   x->promise = self->make_response_promise<skill_added>();
   const auto offer =
       offer_from(st, request.build, st.setup.self.name, {request.node});
   self->request(st.setup.agent, limits::build::keeping_answer,
                 build_keeping{st.setup.cell, offer, false})
-      .then(
-          [self, x](const build_kept&) { describe_addition(self, x); },
-          [x](const caf::error& why) { refuse_addition(x, to_failure(why)); });
+      .then([self, x](const build_kept&) { describe_addition(self, x); },
+            [self, x](const caf::error& why) {
+              refuse_addition(self, x, to_failure(why));
+            });
   return x->promise;
 }
 

@@ -29,5 +29,7 @@ void release_remains(coordinator_pointer self, const std::string& node);
 
 /// The table of the store that has the cell's builds.
 constexpr const char* builds_table = "builds";
+/// Of builds that nodes have to let go, in the same way.
+constexpr const char* remains_table = "removed_builds";
 
 } // namespace roscell

@@ -17,8 +17,6 @@ namespace roscell {
 
 namespace {
 
-constexpr const char* remains_table = "removed_builds";
-
 std::string shown_build(const std::string& hash) {
   return hash.substr(0, limits::build::shown_digits);
 }

@@ -28,6 +28,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -83,6 +84,7 @@ struct cell_coordinator_state {
   task_table tasks;
   deployment_table deployments;
   cell_builds builds;
+  std::set<std::string> additions; ///< Hashes of builds on their way into it.
   image_readers images;
   stream_watch streams;
   pending_operations pending;

@@ -26,9 +26,14 @@ struct shared_cell : paper_cell {
     kept_builds[shout_hash] = shout_skill();
   }
 
+  json addition_of(const std::string& node = "arm",
+                   const std::string& hash = shout_hash) {
+    return message_json(skill_addition{{hash, hash, 7}, node});
+  }
+
   json add_skill(const std::string& node = "arm",
                  const std::string& hash = shout_hash) {
-    return request(message_json(skill_addition{{hash, hash, 7}, node}));
+    return request(addition_of(node, hash));
   }
 
   json listed() {
@@ -96,6 +101,44 @@ TEST_CASE_METHOD(shared_cell, "What no second node can keep is not added",
   CHECK(error_of(add_skill()) == "unreachable");
   CHECK(listed().empty());
   CHECK(builds.empty());
+  // What may have come to them goes.
+  CHECK(arm.releases == std::vector<std::string>{shout_hash});
+  CHECK(leg.releases == std::vector<std::string>{shout_hash});
+  CHECK(remains.empty());
+}
+
+TEST_CASE_METHOD(shared_cell,
+                 "That a node may keep a build is written down before it does, "
+                 "for a coordinator that ends meanwhile",
+                 "[builds]") {
+  json written;
+  arm.on_keeping = [&] { written = remains.at(shout_hash).at("nodes"); };
+  REQUIRE(add_skill().at("type") == "skill_added");
+  CHECK(written == json::array({"arm"}));
+  CHECK(remains.empty());
+  CHECK(arm.releases.empty());
+}
+
+TEST_CASE_METHOD(shared_cell,
+                 "A build that is being added is not added by another at once",
+                 "[builds]") {
+  slow_disk = true;
+  const auto first = post(addition_of());
+  CHECK(error_of(reply_of(post(addition_of("leg")))) == "conflict");
+  slow_disk = false;
+  finish_writes();
+  time.settle();
+  CHECK(reply_of(first).at("type") == "skill_added");
+  CHECK(arm.releases.empty());
+  CHECK(add_skill("leg").at("type") == "skill_added");
+}
+
+TEST_CASE_METHOD(shared_cell, "What was not added can be added again",
+                 "[builds]") {
+  arm.gets_nothing = leg.gets_nothing = true;
+  add_skill();
+  arm.gets_nothing = false;
+  CHECK(add_skill().at("type") == "skill_added");
 }
 
 TEST_CASE_METHOD(shared_cell, "What cannot be written down is not added",

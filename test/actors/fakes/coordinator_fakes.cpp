@@ -114,6 +114,8 @@ caf::behavior agent(caf::event_based_actor* self, fake_agent* x) {
       },
       [=](const build_keeping& request) -> caf::result<build_kept> {
         x->keepings.push_back(request);
+        if (x->on_keeping)
+          x->on_keeping();
         if (x->gets_nothing)
           return fail(error_code::unreachable, "no node gives the build");
         return build_kept{request.offer.build.hash};

@@ -49,6 +49,7 @@ struct fake_agent {
   bool fetches_builds = true;       ///< It says so when it registers.
   bool gets_nothing = false;        ///< No build comes to it.
   std::vector<build_keeping> keepings;
+  std::function<void()> on_keeping;          ///< Called before it answers one.
   std::map<std::string, std::string> images; ///< Ids by name.
   std::vector<image_sharing> sharings;
   build_name shared_build;
