@@ -248,6 +248,13 @@ test_a_pattern_ends_the_tasks_of_such_names_and_no_others() {
   chain_task > "$scratch/chain.yaml"
   to head run "$scratch/chain.yaml" > "$scratch/out" || fail "run refused it"
   to head stop 'x*' > "$scratch/out" 2>&1 && fail "nothing is named so"
+  # Who sits at a terminal is asked.
+  for name in n ''; do
+    echo "$name" | script -qec "$ROSCELL stop 'greet-*' --to $scratch/head/node.sock" \
+      /dev/null > "$scratch/out" && fail "ended all the same: $(cat "$scratch/out")"
+    has_line 'end them?' "$scratch/out" || fail "nobody is asked: $(cat "$scratch/out")"
+  done
+  expect "tasks" "$(get head /v1/tasks | jq '.tasks | length')" 3
   to head stop 'greet-*' > "$scratch/out" 2> "$scratch/notes" < /dev/null \
     || fail "$(cat "$scratch/notes")"
   has_line 'these tasks are ended: greet-one, greet-two' "$scratch/notes" \

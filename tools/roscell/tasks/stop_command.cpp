@@ -49,14 +49,13 @@ std::vector<std::string> tasks_meant(const node_client& node,
       add_once(result, name);
       continue;
     }
-    const auto before = result.size();
     bool matched = false;
     for (const auto& x : known.tasks)
       if (fnmatch(name.c_str(), x.task.c_str(), 0) == 0) {
         add_once(result, x.task);
         matched = true;
       }
-    if (!matched && result.size() == before)
+    if (!matched)
       throw command_error{exit_refused,
                           "no task has a name like '" + printable(name) + "'",
                           "`roscell tasks` lists them"};
@@ -76,7 +75,10 @@ bool is_meant(const stop_options& options,
   print_text("end them? [y/N] ");
   std::string answer;
   std::getline(std::cin, answer);
-  return answer == "y" || answer == "yes";
+  if (answer == "y" || answer == "yes")
+    return true;
+  print_note("none is ended");
+  return false;
 }
 
 /// What is not stop-safe yet is waited for, unless a program has asked.
