@@ -211,7 +211,7 @@ void add_plan_command(CLI::App& app, action& chosen) {
       "is explained.\n\n"
       "Examples:\n  roscell plan cell.yaml\n  roscell plan task.yaml\n"
       "  roscell plan --to 192.168.1.10 --token-file token task.json\n"
-      "  roscell plan --to /run/roscell/api.sock --without arm-1 --why poses "
+      "  roscell plan --to unix:/srv/arm/node.sock --without arm-1 --why poses "
       "task.json\n"
       "  roscell plan cell.json -o json | jq .score.total");
   command

@@ -43,7 +43,8 @@ std::filesystem::path unpack_archive(const std::filesystem::path& archive,
   if (::access(unpacker.c_str(), X_OK) != 0)
     throw cannot_unpack("archives are unpacked by " + std::string{program_name}
                             + ", which is not installed",
-                        "install libroscell-dev, or unpack '"
+                        "install libroscell-dev, in a build tree build "
+                        "unpack_skill, or unpack '"
                             + printable(archive.string())
                             + "' and name its folder");
   const auto said = parse_document(output_of(unpacker, archive, into));
