@@ -203,6 +203,9 @@ inline constexpr event_kind task_failed{
     "task_failed", "task", "coordinator",
     "A step of it has failed: `reason`. A request that was refused before "
     "anything of it was placed is `request_refused` only."};
+inline constexpr event_kind task_timed_out{
+    "task_timed_out", "task", "coordinator",
+    "Its `timeout_s` is over, so these `instances` are ended."};
 inline constexpr event_kind task_terminated{
     "task_terminated", "task", "coordinator",
     "It was ended by a request: `instances`, and `pending_nodes`."};

@@ -78,6 +78,8 @@ struct task_request {
   std::vector<task_step> pipeline;
   preemption preempt = preemption::none;
   bool force = false; ///< What is preempted is not waited for to be stop-safe.
+  /// How long it may run, from when all its steps do; 0: for ever.
+  double timeout_s = 0;
   /// Under one id a task runs once. Empty: it has none.
   std::string request_id;
 
@@ -86,6 +88,7 @@ struct task_request {
                       required("pipeline", &task_request::pipeline),
                       optional("preempt", &task_request::preempt),
                       optional("force", &task_request::force),
+                      optional("timeout_s", &task_request::timeout_s),
                       optional("request_id", &task_request::request_id)};
   }
 };
@@ -221,6 +224,9 @@ struct task_row {
   int64_t ended_unix_ms = 0; ///< Of a finished or failed one; 0: it goes on.
   std::vector<instance_row> instances;
   int64_t run = 1; ///< How often it has been started as a whole.
+  /// When what still runs of it is ended; 0: it has no `timeout_s`, or has
+  /// ended.
+  int64_t deadline_unix_ms = 0;
 
   static constexpr auto fields() {
     return field_list{
@@ -229,7 +235,8 @@ struct task_row {
         required("submitted_unix_ms", &task_row::submitted_unix_ms),
         optional("ended_unix_ms", &task_row::ended_unix_ms),
         required("instances", &task_row::instances),
-        optional("run", &task_row::run)};
+        optional("run", &task_row::run),
+        optional("deadline_unix_ms", &task_row::deadline_unix_ms)};
   }
 };
 

@@ -17,6 +17,7 @@
 #include "actors/cell/streams/stream_watch.hpp"
 #include "actors/cell/tasks/cell_instances.hpp"
 #include "actors/cell/tasks/cell_tasks.hpp"
+#include "actors/cell/tasks/late_tasks.hpp"
 #include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
@@ -131,6 +132,7 @@ void on_tick(coordinator_pointer self, uint64_t number) {
   retry_due_changes(self);
   ask_overdue_removals(self);
   give_up_late_waits(self);
+  end_late_tasks(self);
   start_due_again(self);
   forget_past_remains(self);
   move_abandoned_steps(self);

@@ -122,6 +122,9 @@ void on_registration_persisted(coordinator_pointer self,
   release_remains(self, who.name);
   settle_arrivals(self, who.uuid, {});
   on_node_returned(self, who.uuid);
+  // What it still runs of late tasks is ended.
+  st.deadlines.hurry(self->clock().now());
+  set_timer(self);
 }
 
 /// Writes the row down, unless it cannot have one. A member that has `gone`

@@ -266,3 +266,31 @@ test_a_pattern_ends_the_tasks_of_such_names_and_no_others() {
     '[1,2]'
   expect "tasks" "$(get head /v1/tasks | jq '.tasks | length')" 0
 }
+
+test_a_task_whose_time_is_over_is_ended_and_runs_once_more() {
+  local row reason='timeout_s of 3 is over'
+  start_alone
+  { chain_task; echo 'timeout_s: 3'; } > "$scratch/chain.yaml"
+  echo hello >> "$scratch/data/in.txt"
+  to head run --wait-finished "$scratch/chain.yaml" > "$scratch/out" 2>&1
+  expect "exit code" $? 1
+  has_line "$reason" "$scratch/out" || fail "it says: $(cat "$scratch/out")"
+  has_line -x '2 1 hello' "$scratch/data/out.txt" || fail "no frame came"
+  expect "what runs" "$(get head /v1/instances \
+    | jq -c '[.instances[] | select(.state != "failed")]')" '[]'
+  # The coordinator is killed while the time of the next run is running out.
+  to head run "$scratch/chain.yaml" > "$scratch/out" || fail "$(cat "$scratch/out")"
+  await_line "$scratch/data/out.txt" '2 1 hello'
+  stop_node head KILL
+  start_alone
+  [[ $(get head /v1/tasks/chain | jq -r '.tasks[0].state') == failed ]] \
+    || await head '.event == "task_failed" and .subject == "chain"' > /dev/null
+  row=$(get head /v1/tasks/chain | jq -c '.tasks[0]')
+  expect "its state" "$(jq -r .state <<< "$row")" failed
+  has_line "$reason" <<< "$row" || fail "it says: $row"
+  expect "who follows the file" "$(pgrep -cf "$scratch/data/in.txt")" 0
+  # Started again it has its whole time, and its frames come.
+  to head restart chain > "$scratch/out" || fail "$(cat "$scratch/out")"
+  echo again >> "$scratch/data/in.txt"
+  await_line "$scratch/data/out.txt" '2 1 again'
+}

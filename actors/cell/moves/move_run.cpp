@@ -6,6 +6,7 @@
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
+#include "actors/core/clocks.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -39,8 +40,9 @@ void change_tasks(coordinator_pointer self, const move_ptr& move,
   for (const auto& [task, moved] : changes) {
     pending_change change;
     change.still = still_of(*move);
+    // A task that had ended has its whole time again.
     change.make = [make, moved = moved](task_record record) {
-      return make(std::move(record), moved);
+      return with_deadline(make(std::move(record), moved), unix_now_ms());
     };
     change.done = [self, move, next, task = task](const completion& kept) {
       if (!kept && (self->state.tasks.*still_of(*move))(task))

@@ -84,6 +84,16 @@ failure without_request(const std::string& task) {
           "/task", "terminate the task, and run it again"};
 }
 
+std::optional<failure> why_too_late(const cell_coordinator_state& st,
+                                    const std::string& task) {
+  if (!st.deadlines.is_late(task))
+    return std::nullopt;
+  return failure{error_code::conflict,
+                 "the timeout_s of task '" + task
+                     + "' is over, and it is being ended",
+                 "/task", "send it again when it has ended"};
+}
+
 std::optional<failure> add_moved_step(coordinator_pointer self, task_move& move,
                                       const task_request& request,
                                       const deployment& old,
@@ -91,6 +101,8 @@ std::optional<failure> add_moved_step(coordinator_pointer self, task_move& move,
   const auto written = step_of(request, old);
   if (!written)
     return std::nullopt;
+  if (auto why = why_too_late(self->state, request.task))
+    return why;
   auto resolved = resolve(self->state, *written);
   if (auto* why = std::get_if<failure>(&resolved))
     return *why;

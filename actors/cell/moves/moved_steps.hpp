@@ -72,6 +72,10 @@ std::optional<task_request> request_of(const task_entry& entry);
 
 failure without_request(const std::string& task);
 
+/// Why nothing of the task is started any more; null: its time is not over.
+std::optional<failure> why_too_late(const cell_coordinator_state& st,
+                                    const std::string& task);
+
 /// Adds a step of a task that is to take the place of an instance, resolved
 /// anew, with the ends that it has. It is placed on the node of that name, or
 /// anywhere if that is empty.

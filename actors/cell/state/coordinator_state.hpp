@@ -11,6 +11,7 @@
 #include "actors/cell/tables/ordered_ends.hpp"
 #include "actors/cell/tables/peer_table.hpp"
 #include "actors/cell/tables/slot_table.hpp"
+#include "actors/cell/tables/task_deadlines.hpp"
 #include "actors/cell/tables/task_table.hpp"
 #include "actors/cell/tables/transfer_table.hpp"
 #include "actors/cell/tables/unassigned_node_table.hpp"
@@ -82,6 +83,7 @@ struct cell_coordinator_state {
   coordinator_setup setup;
   cell_registry registry;
   task_table tasks;
+  task_deadlines deadlines;
   deployment_table deployments;
   cell_builds builds;
   std::set<std::string> additions; ///< Hashes of builds on their way into it.

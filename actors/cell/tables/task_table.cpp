@@ -83,6 +83,16 @@ void replace(task_record& record, task_accepted& decision,
       allocation = x.place;
 }
 
+/// How long a request lets its task run; 0: for ever.
+double timeout_in(const std::string& request) {
+  const auto document = json::parse(request, nullptr, false);
+  if (!document.is_object())
+    return 0;
+  const auto found = document.find("timeout_s");
+  return found != document.end() && found->is_number() ? found->get<double>()
+                                                       : 0;
+}
+
 /// The state of a running task, from the ends of its steps.
 task_state state_after(const task_record& record) {
   bool failed = false;
@@ -164,6 +174,7 @@ void task_table::apply(const task_record& record) {
   entry.run = record.run;
   entry.request_ids = record.request_ids;
   entry.orders = record.orders;
+  entry.deadline_unix_ms = record.deadline_unix_ms;
 }
 
 void task_table::forget(const std::string& task) {
@@ -225,6 +236,7 @@ task_record record_of(const std::string& task, const task_entry& entry,
   result.run = entry.run;
   result.request_ids = entry.request_ids;
   result.orders = entry.orders;
+  result.deadline_unix_ms = entry.deadline_unix_ms;
   for (const auto& x : deployments.of_task(task)) {
     result.specs.push_back(x.spec);
     result.nodes.push_back(x.node);
@@ -293,8 +305,21 @@ task_record with_ends(task_record record, const std::vector<instance_end>& ends,
       record.ends.push_back(x);
   if (record.state == task_state::running)
     record.state = state_after(record);
-  if (is_settled(record.state) && record.ended_unix_ms == 0)
+  if (!is_settled(record.state))
+    return record;
+  record.deadline_unix_ms = 0;
+  if (record.ended_unix_ms == 0)
     record.ended_unix_ms = now_unix_ms;
+  return record;
+}
+
+task_record with_deadline(task_record record, int64_t now_unix_ms) {
+  if (record.state != task_state::running || record.deadline_unix_ms > 0)
+    return record;
+  constexpr double ms_per_s = 1000;
+  if (const auto timeout_s = timeout_in(record.request); timeout_s > 0)
+    record.deadline_unix_ms =
+        now_unix_ms + static_cast<int64_t>(timeout_s * ms_per_s);
   return record;
 }
 

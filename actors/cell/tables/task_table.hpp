@@ -49,6 +49,7 @@ struct task_record {
   std::vector<std::string> request_ids;
   std::vector<end_order> orders;   ///< Instances that were told to end.
   std::vector<left_instance> left; ///< As of when this was written.
+  int64_t deadline_unix_ms = 0;    ///< As in `task_row`.
 
   static constexpr auto fields() {
     return field_list{
@@ -65,7 +66,8 @@ struct task_record {
         optional("run", &task_record::run),
         optional("request_ids", &task_record::request_ids),
         optional("orders", &task_record::orders),
-        optional("left", &task_record::left)};
+        optional("left", &task_record::left),
+        optional("deadline_unix_ms", &task_record::deadline_unix_ms)};
   }
 };
 
@@ -80,6 +82,7 @@ struct task_entry {
   int64_t run = 1;
   std::vector<std::string> request_ids;
   std::vector<end_order> orders;
+  int64_t deadline_unix_ms = 0;
 };
 
 /// How a claim stands to what the table knows.
@@ -176,6 +179,11 @@ task_record with_request(task_record record, const std::string& id);
 /// With ends of instances. The state follows when it was the last one.
 task_record with_ends(task_record record, const std::vector<instance_end>& ends,
                       int64_t now_unix_ms);
+
+/// With the time at which it is ended by its request's `timeout_s`, if that has
+/// one and it runs. One that is set stays; an end of the task takes it away, so
+/// that it is counted anew where it is started again.
+task_record with_deadline(task_record record, int64_t now_unix_ms);
 
 /// With the word that an instance is told to end, unless it has ended.
 task_record with_order(task_record record, const end_order& order);

@@ -112,6 +112,7 @@ void restore_tasks(coordinator_pointer self) {
       continue;
     st.tasks.apply(*record);
     st.deployments.place(record->task, deployments_in(*record));
+    follow_deadline(self, record->task);
   }
 }
 
@@ -170,8 +171,11 @@ caf::result<task_accepted> accept_task(coordinator_pointer self,
   pending_change change;
   change.still = &task_table::is_deploying;
   change.make = [self, task = event.task](task_record record) {
-    return with_ends(with_state(std::move(record), task_state::running),
-                     self->state.deployments.untaken_ends(task), unix_now_ms());
+    const auto now = unix_now_ms();
+    return with_deadline(
+        with_ends(with_state(std::move(record), task_state::running),
+                  self->state.deployments.untaken_ends(task), now),
+        now);
   };
   change.done = [self, task = event.task, promise](const completion& kept) {
     if (!kept)

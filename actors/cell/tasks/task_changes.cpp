@@ -3,6 +3,7 @@
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/may_start.hpp"
+#include "actors/core/clocks.hpp"
 #include "messages/event_kinds.hpp"
 
 #include <algorithm>
@@ -58,6 +59,7 @@ void on_change_persisted(coordinator_pointer self, const std::string& task,
     st.tasks.forget(task);
     st.deployments.forget_task(task);
   }
+  follow_deadline(self, task);
   follow_orders(self, task, record ? *record : task_record{});
   end_change(self, task, {});
 }
@@ -117,6 +119,15 @@ void write_next_change(coordinator_pointer self, const std::string& task) {
 }
 
 } // namespace
+
+void follow_deadline(coordinator_pointer self, const std::string& task) {
+  auto& st = self->state;
+  const auto* entry = st.tasks.find(task);
+  st.deadlines.follow(task, entry ? entry->deadline_unix_ms : 0, unix_now_ms(),
+                      self->clock().now());
+  if (st.deadlines.next_due() != time_point::max())
+    set_timer(self);
+}
 
 void change_task(coordinator_pointer self, const std::string& task,
                  pending_change change) {

@@ -14,6 +14,9 @@ namespace roscell {
 void change_task(coordinator_pointer self, const std::string& task,
                  pending_change change);
 
+/// The deadline of a task is that of its record, which was written or taken up.
+void follow_deadline(coordinator_pointer self, const std::string& task);
+
 /// Tries the first change of a task again at once, if it waits for that.
 void retry_change(coordinator_pointer self, const std::string& task);
 

@@ -44,6 +44,8 @@ std::optional<failure> hindrance(const cell_coordinator_state& st,
     return failure{error_code::conflict,
                    "task '" + task + "' is being deployed or terminated",
                    "/task", "send it again in a while"};
+  if (auto why = why_too_late(st, task))
+    return why;
   const auto& placed = st.deployments.of_task(task);
   if (std::any_of(placed.begin(), placed.end(),
                   [](const auto& x) { return x.tentative; }))

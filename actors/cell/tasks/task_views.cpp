@@ -66,7 +66,8 @@ task_row describe_task(const cell_coordinator_state& st,
                   entry.submitted_unix_ms,
                   entry.ended_unix_ms,
                   {},
-                  entry.run};
+                  entry.run,
+                  entry.deadline_unix_ms};
   for (const auto& x : st.deployments.of_task(task))
     result.instances.push_back(shown(st, st.deployments.row_of(x)));
   sort_by_flow(result.instances);

@@ -20,8 +20,11 @@ namespace {
 
 /// What tells a request from another one of its task: the way in which room was
 /// made for it does not.
-std::string text_of(const task_request& request) {
-  return message_json(task_request{request.task, request.pipeline}).dump();
+std::string text_of(task_request request) {
+  request.preempt = preemption::none;
+  request.force = false;
+  request.request_id.clear();
+  return message_json(request).dump();
 }
 
 bool has_node(const std::vector<node_resources>& nodes,

@@ -20,7 +20,7 @@ export function newStep(descriptor, pipeline) {
 
 /** The plan query of a task request, with what is thought away and thought of. */
 export function planQuery(request, { without = [], with: added = [], why = '' } = {}) {
-  const { type, request_id, preempt, ...rest } = request;
+  const { type, request_id, preempt, force, timeout_s, ...rest } = request;
   return {
     type: 'task_plan_query', ...rest,
     ...(preempt && preempt !== 'none' ? { preempt: true } : {}),

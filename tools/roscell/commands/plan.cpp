@@ -121,6 +121,7 @@ document_result query_of(const plan_options& options, const json& document) {
     query["without"] = options.without;
   query.erase("preempt");
   query.erase("force");
+  query.erase("timeout_s");
   if (options.preempt)
     query["preempt"] = true;
   auto with = nodes_in(options.with);
