@@ -78,10 +78,17 @@ private:
   std::unique_ptr<impl> impl_;
 };
 
+/// How long a survey of `least` waits: on a host that is busy or slow, on which
+/// it took longer to open the participant, others need longer to answer, too.
+/// Up to 1 s, unless `least` is more.
+std::chrono::milliseconds
+survey_span(std::chrono::milliseconds least,
+            std::chrono::steady_clock::duration opening);
+
 /// What is announced on the site now, each participant once, as far as it
-/// answers within `span` and until `enough` is true of one of them; with an
-/// empty `enough` it waits out the span. Announces the role `surveyor`
-/// meanwhile, whatever `options` say. Blocks; refused like
+/// answers within `span` (see `survey_span`) and until `enough` is true of one
+/// of them; with an empty `enough` it waits out the span. Announces the role
+/// `surveyor` meanwhile, whatever `options` say. Blocks; refused like
 /// `public_presence::open`.
 edge_result<std::vector<announcement>>
 survey_site(presence_options options, std::chrono::milliseconds span,

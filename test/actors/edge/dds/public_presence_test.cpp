@@ -94,6 +94,16 @@ void send_to(const char* address, std::uint16_t port,
 
 } // namespace
 
+TEST_CASE("a survey takes longer on a host that is busy or slow") {
+  using namespace std::chrono_literals;
+  CHECK(survey_span(60ms, 0ms) == 60ms);
+  CHECK(survey_span(60ms, 2400us) == 60ms);
+  CHECK(survey_span(60ms, 10ms) == 250ms);
+  CHECK(survey_span(60ms, 40ms) == 1s);
+  CHECK(survey_span(60ms, 1h) == 1s);
+  CHECK(survey_span(5s, 40ms) == 5s);
+}
+
 TEST_CASE("two presences of one process see each other, not themselves",
           "[presence]") {
   diary first_saw;
