@@ -109,7 +109,7 @@ TEST_CASE_METHOD(hasty_cell,
   time.advance(25s);
   CHECK(state_of_a() != "failed");
   time.advance(1min);
-  CHECK(right.running.empty());
+  CHECK(right.deployments.empty());
   CHECK(state_of_a() == "failed");
 }
 
