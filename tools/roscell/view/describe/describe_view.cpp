@@ -123,9 +123,7 @@ void describe_task(page& out, const known_cell& known, const std::string& name,
     out.detail("State", to_string(row.state));
     out.detail("Submitted", time_and_age_text(row.submitted_unix_ms, style));
     out.detail("Run", std::to_string(row.run));
-    if (row.deadline_unix_ms > 0)
-      out.detail("Ends at", local_time(row.deadline_unix_ms)
-                                + " if it still runs (timeout_s)");
+    out.detail("Ends at", deadline_text(row.deadline_unix_ms));
   }
   out.detail("Allocation", allocation_text(known, name));
   const auto steps = of_task(known, name);

@@ -176,6 +176,11 @@ std::string time_and_age_text(int64_t unix_ms, const view_style& style) {
                             + local_time(unix_ms) + ")";
 }
 
+std::string deadline_text(int64_t unix_ms) {
+  return unix_ms <= 0 ? ""
+                      : local_time(unix_ms) + " if it still runs (timeout_s)";
+}
+
 std::string resource_request_text(const resource_request& r) {
   auto result = "cpu " + format_number(r.cpu) + ", memory "
                 + format_memory(r.memory_mib) + ", disk "

@@ -70,6 +70,9 @@ std::string instance_state_text(const instance_row& row,
 /// "5m03s ago (2026-11-22 17:01:02.345)"; empty for a time that is not known.
 std::string time_and_age_text(int64_t unix_ms, const view_style& style);
 
+/// "2026-11-28 06:30:00.000 if it still runs (timeout_s)"; empty if 0.
+std::string deadline_text(int64_t unix_ms);
+
 /// "cpu 1, memory 96 MiB, disk 150 MiB"
 std::string resource_request_text(const resource_request& r);
 
