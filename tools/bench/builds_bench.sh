@@ -47,6 +47,9 @@ list_ms=$(for ((n = 0; n < 9; ++n)); do
   echo $(($(now_ms) - begin))
 done | median)
 figure "roscell skills" "$list_ms" ms
+# Threads that rest have ended by then: with them goes the time that they ran.
+settling_s=3
+sleep "$settling_s"
 begin=$(cpu_ns head)
 sleep "$idle_s"
 figure "coordinator, idle" \
