@@ -290,6 +290,12 @@ using cell_coordinator_actor = introspected_actor::extend<
     // (it is being deployed, ended or moved), no_feasible_allocation, internal;
     // engine_failed and others where an instance does not come up.
     caf::replies_to<task_restart>::with<task_restarted>,
+    // Replies once it is known what is changed, and written down. Errors:
+    // unknown_task, conflict (it is being deployed, ended, moved or updated),
+    // no_feasible_allocation, internal, and those of reading a request.
+    caf::replies_to<task_update>::with<task_update_plan>,
+    // Errors: unknown_task.
+    caf::replies_to<task_revisions_query>::with<task_revisions>,
     caf::reacts_to<presence_seen>, caf::reacts_to<presence_gone>,
     caf::reacts_to<peer_opened>, caf::reacts_to<peer_lost>,
     caf::reacts_to<peer_status_reported>, caf::reacts_to<peer_changed>,

@@ -209,6 +209,21 @@ inline constexpr event_kind task_timed_out{
 inline constexpr event_kind task_terminated{
     "task_terminated", "task", "coordinator",
     "It was ended by a request: `instances`, and `pending_nodes`."};
+inline constexpr event_kind task_update_begun{
+    "task_update_begun", "task", "coordinator",
+    "It is being changed: the `revision` that it is to have, and what its "
+    "steps do."};
+inline constexpr event_kind step_replaced{
+    "step_replaced", "task", "coordinator",
+    "The new instance of a `step` runs, or the step is no more: `instance`, "
+    "`node`, and what it `replaces`."};
+inline constexpr event_kind task_updated{
+    "task_updated", "task", "coordinator",
+    "It is as its new request says, of that `revision`."};
+inline constexpr event_kind task_update_reverted{
+    "task_update_reverted", "task", "coordinator",
+    "Its update has come to nothing: all that was replaced is put back, for "
+    "this `reason`."};
 inline constexpr event_kind step_stranded{
     "step_stranded", "instance, the old one", "coordinator",
     "It is to move, or was preempted, and has no place; once a `reason`."};

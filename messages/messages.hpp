@@ -33,5 +33,6 @@
 #include "messages/session.hpp"
 #include "messages/skill.hpp"
 #include "messages/task.hpp"
+#include "messages/task_update.hpp"
 #include "messages/topic.hpp"
 #include "messages/type_ids.hpp"

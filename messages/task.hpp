@@ -68,6 +68,16 @@ constexpr auto enum_words(preemption) {
   return std::array<std::string_view, 3>{"none", "show", "yes"};
 }
 
+/// How a task is changed while it runs.
+struct update_policy {
+  /// How long what was replaced is to run well before the next step is.
+  double healthy_for_s = 10;
+
+  static constexpr auto fields() {
+    return field_list{optional("healthy_for_s", &update_policy::healthy_for_s)};
+  }
+};
+
 /// Allocates and starts the steps of a pipeline. Answered by `task_accepted`
 /// once all of them run. A second one with the same steps starts again what has
 /// failed, and is told how the task stands; under a new id it is the next run
@@ -80,6 +90,10 @@ struct task_request {
   bool force = false; ///< What is preempted is not waited for to be stop-safe.
   /// How long it may run, from when all its steps do; 0: for ever.
   double timeout_s = 0;
+  std::map<std::string, std::string> labels; ///< To tell tasks apart by.
+  update_policy update;
+  /// Where its task has ended, and had another request, this is its next run.
+  bool replace = false;
   /// Under one id a task runs once. Empty: it has none.
   std::string request_id;
 
@@ -89,6 +103,9 @@ struct task_request {
                       optional("preempt", &task_request::preempt),
                       optional("force", &task_request::force),
                       optional("timeout_s", &task_request::timeout_s),
+                      optional("labels", &task_request::labels),
+                      optional("update", &task_request::update),
+                      optional("replace", &task_request::replace),
                       optional("request_id", &task_request::request_id)};
   }
 };
@@ -227,6 +244,12 @@ struct task_row {
   /// When what still runs of it is ended; 0: it has no `timeout_s`, or has
   /// ended.
   int64_t deadline_unix_ms = 0;
+  int64_t revision = 1; ///< Of its request; each update makes the next one.
+  /// How far its update is, one sentence; empty: it is not being updated.
+  std::string updating;
+  /// Why the last update was put back; empty: it was not.
+  std::string update_problem;
+  std::map<std::string, std::string> labels; ///< As in `task_request`.
 
   static constexpr auto fields() {
     return field_list{
@@ -236,7 +259,11 @@ struct task_row {
         optional("ended_unix_ms", &task_row::ended_unix_ms),
         required("instances", &task_row::instances),
         optional("run", &task_row::run),
-        optional("deadline_unix_ms", &task_row::deadline_unix_ms)};
+        optional("deadline_unix_ms", &task_row::deadline_unix_ms),
+        optional("revision", &task_row::revision),
+        optional("updating", &task_row::updating),
+        optional("update_problem", &task_row::update_problem),
+        optional("labels", &task_row::labels)};
   }
 };
 

@@ -73,6 +73,10 @@
   X(task_terminated)                                                           \
   X(task_restart)                                                              \
   X(task_restarted)                                                            \
+  X(task_update)                                                               \
+  X(task_update_plan)                                                          \
+  X(task_revisions_query)                                                      \
+  X(task_revisions)                                                            \
   X(task_history_query)                                                        \
   X(task_history)                                                              \
   X(task_query)                                                                \

@@ -13,12 +13,12 @@ PRODUCT = ['actors', 'client', 'dds', 'embedding', 'include', 'messages',
            'schemas', 'skills', 'tools']
 
 # Each is one unit cut into folders for its readers; none is to be added. A
-# coordinator's moves end and start steps of tasks, and both act on its state;
-# a session begins as an HTTP request, and its probes share the heartbeat's
-# port; a codec is compiled with the families that are read by it.
+# coordinator's moves and updates end and start steps of tasks, and all act on
+# its state; a session begins as an HTTP request, and its probes share the
+# heartbeat's port; a codec is compiled with the families that are read by it.
 ONE_UNIT = [
     {'actors/cell/moves', 'actors/cell/state', 'actors/cell/streams',
-     'actors/cell/tasks'},
+     'actors/cell/tasks', 'actors/cell/updates'},
     {'actors/edge/http', 'actors/edge/reach', 'actors/edge/session'},
     {'messages/codec', 'messages/inside', 'messages/insight'},
 ]

@@ -23,6 +23,7 @@
 #include "actors/cell/tasks/task_endings.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_views.hpp"
+#include "actors/cell/updates/task_updates.hpp"
 #include "messages/failure.hpp"
 
 #include <utility>
@@ -107,6 +108,7 @@ json summary(coordinator_pointer self) {
           {"transfers", st.transfers.size()},
           {"balancing", st.balancing},
           {"moves", st.moves.size()},
+          {"updates", st.updates.size()},
           {"orders", st.orders.size()},
           {"unsafe", st.pending.not_stop_safe.size()},
           {"may_run", st.failures.count(self->clock().now())},
@@ -138,6 +140,7 @@ void on_tick(coordinator_pointer self, uint64_t number) {
   move_abandoned_steps(self);
   go_on_draining(self);
   settle_due_move(self);
+  settle_due_updates(self);
   balance_if_due(self);
   write_due_events(self);
   set_timer(self);
@@ -207,6 +210,10 @@ cell_coordinator(coordinator_pointer self, const actor_context& context,
       [self](const record_failure& x) { return undo_deployment(self, x); },
       [self](const task_termination& x) { return terminate_task(self, x); },
       [self](const task_restart& x) { return restart_task(self, x); },
+      [self](const task_update& x) { return update_task(self, x); },
+      [self](const task_revisions_query& x) {
+        return list_revisions(self->state, x);
+      },
       [self](const presence_seen& x) { on_presence_seen(self, x.who); },
       [self](const presence_gone& x) { on_presence_gone(self, x.who); },
       [self](const peer_opened& x) { on_peer_opened(self, x); },

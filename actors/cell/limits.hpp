@@ -114,6 +114,11 @@ constexpr seconds unwritten{15};
 constexpr size_t waiting = 256;
 constexpr size_t same_requests = 64;
 
+/// Requests that a task has had before and that are kept, to go back to: so
+/// many, and no more bytes than that.
+constexpr size_t former_requests = 4;
+constexpr size_t former_request_bytes = 64 * 1024;
+
 /// Tasks at a time, whatever their state.
 constexpr size_t most = 1000;
 

@@ -36,19 +36,33 @@ void read_with_cpu_floor(node_resources& node) {
       std::max(0.0, node.cpu.used - std::exchange(node.cpu_compressible, 0));
 }
 
-void reserve(node_resources& node, const resource_request& request, int gpu) {
-  node.cpu.used += request.cpu;
-  node.memory_mib.used += request.memory_mib;
-  node.disk_mib.used += request.disk_mib;
+namespace {
+
+/// @param sign 1 or -1.
+void add(node_resources& node, const resource_request& request, int gpu,
+         double sign) {
+  node.cpu.used += sign * request.cpu;
+  node.memory_mib.used += sign * request.memory_mib;
+  node.disk_mib.used += sign * request.disk_mib;
   if (!request.needs_gpu())
     return;
   if (node.unified_memory) {
-    node.memory_mib.used += request.gpu_memory_mib;
+    node.memory_mib.used += sign * request.gpu_memory_mib;
     return;
   }
   for (auto& x : node.gpus)
     if (x.index == gpu)
-      x.memory_mib.used += request.gpu_memory_mib;
+      x.memory_mib.used += sign * request.gpu_memory_mib;
+}
+
+} // namespace
+
+void reserve(node_resources& node, const resource_request& request, int gpu) {
+  add(node, request, gpu, 1);
+}
+
+void unreserve(node_resources& node, const resource_request& request, int gpu) {
+  add(node, request, gpu, -1);
 }
 
 std::vector<std::string> shortages(const node_resources& node,

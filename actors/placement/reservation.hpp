@@ -19,6 +19,9 @@ void read_with_cpu_floor(node_resources& node);
 /// the GPU of that index, or in the node's pool where memory is unified.
 void reserve(node_resources& node, const resource_request& request, int gpu);
 
+/// Takes it off again.
+void unreserve(node_resources& node, const resource_request& request, int gpu);
+
 /// What a node is short of for an instance, a sentence each; empty if it fits.
 std::vector<std::string> shortages(const node_resources& node,
                                    const resource_request& request, int gpu);

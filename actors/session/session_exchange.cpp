@@ -10,6 +10,7 @@
 #include "messages/instance.hpp"
 #include "messages/rebalance.hpp"
 #include "messages/task.hpp"
+#include "messages/task_update.hpp"
 #include "messages/topic.hpp"
 
 #include <algorithm>
@@ -147,19 +148,20 @@ std::optional<session_inquiry> session_exchange::admit(session_envelope frame) {
 namespace {
 
 /// What the coordinator answers from what it knows.
-constexpr std::array<std::string_view, 10> queries{
+constexpr std::array<std::string_view, 11> queries{
     fresh_cell_query::type,    cell_query::type,
     cell_list_query::type,     task_query::type,
     task_history_query::type,  task_placement_query::type,
     request_trace_query::type, transfer_query::type,
-    topic_query::type,         instance_query::type};
+    topic_query::type,         instance_query::type,
+    task_revisions_query::type};
 
 /// What it has to do something for.
-constexpr std::array<std::string_view, 10> commands{
+constexpr std::array<std::string_view, 11> commands{
     task_request::type,   task_plan_query::type, task_termination::type,
     task_restart::type,   node_drain::type,      node_undrain::type,
     cell_rebalance::type, skill_addition::type,  skill_removal::type,
-    skill_pull::type};
+    skill_pull::type,     task_update::type};
 
 /// That whoever waits for the member's answer waits longer than the member.
 constexpr std::chrono::seconds log_margin{2};

@@ -7,6 +7,7 @@
 #include "messages/reservation.hpp"
 #include "messages/skill.hpp"
 #include "messages/task.hpp"
+#include "messages/task_update.hpp"
 
 namespace roscell {
 
@@ -66,6 +67,7 @@ ROSCELL_CODEC(trace_hop)
 ROSCELL_CODEC(request_trace)
 ROSCELL_CODEC(request_traces)
 ROSCELL_CODEC(task_step)
+ROSCELL_CODEC(update_policy)
 ROSCELL_CODEC(task_request)
 ROSCELL_CODEC(task_plan_query)
 ROSCELL_CODEC(placed_instance)
@@ -81,5 +83,11 @@ ROSCELL_CODEC(task_query)
 ROSCELL_CODEC(task_description)
 ROSCELL_CODEC(task_change_query)
 ROSCELL_CODEC(task_change)
+ROSCELL_CODEC(step_change)
+ROSCELL_CODEC(task_update)
+ROSCELL_CODEC(task_update_plan)
+ROSCELL_CODEC(task_revisions_query)
+ROSCELL_CODEC(task_revision)
+ROSCELL_CODEC(task_revisions)
 
 } // namespace roscell

@@ -195,12 +195,14 @@ struct claim_task {
   std::string task;
   std::string request;    ///< JSON of the task request.
   std::string request_id; ///< Under which it runs once; may be empty.
-  bool force = false; ///< Hosts that start steps of that name alone are off.
+  bool force = false;   ///< Hosts that start steps of that name alone are off.
+  bool replace = false; ///< As in `task_request`.
 
   static constexpr auto fields() {
     return field_list{required("task", &claim_task::task),
                       required("request", &claim_task::request),
                       optional("force", &claim_task::force),
+                      optional("replace", &claim_task::replace),
                       optional("request_id", &claim_task::request_id)};
   }
 };

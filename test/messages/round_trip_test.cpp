@@ -39,7 +39,8 @@ std::vector<json::json_pointer> members_of(const json& document) {
 bool is_free_form(const json::json_pointer& place) {
   return !place.empty()
          && (place.back() == "parameters" || place.back() == "data"
-             || place.back() == "body" || place.back() == "state");
+             || place.back() == "body" || place.back() == "state"
+             || place.back() == "request");
 }
 
 void check_valid(const std::string& schema, const json& document) {
@@ -51,9 +52,9 @@ void check_valid(const std::string& schema, const json& document) {
 /// Their lists must not be empty, so they have no least form.
 bool has_least_form(const std::string& name) {
   return name != "task_request" && name != "task_plan_query"
-         && name != "skill_descriptor" && name != "plan_document"
-         && name != "cell_formation" && name != "skill_added"
-         && name != "skill_pulled";
+         && name != "task_update" && name != "skill_descriptor"
+         && name != "plan_document" && name != "cell_formation"
+         && name != "skill_added" && name != "skill_pulled";
 }
 
 } // namespace
@@ -126,7 +127,8 @@ TEST_CASE("what a schema lets out, the struct can do without") {
 }
 
 TEST_CASE("every message type has a struct that is tried here") {
-  std::set<std::string> tried{"error"}; // Its struct is `failure`.
+  // The struct of one is `failure`, the other is read part by part.
+  std::set<std::string> tried{"error", "cell_document"};
   for (const auto& x : message_trials())
     tried.insert(x.name);
   for (const auto& type : message_types()) {

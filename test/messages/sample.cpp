@@ -59,6 +59,7 @@ constexpr std::pair<std::string_view, std::string_view> forms[] = {
     {"task_history.events", R"({"level":N})"},
     {"end", "input:N"},
     {".state", R"({"level":N})"},
+    {"task_revision.request", R"({"level":N})"},
     {"window", "minute"},
     {"task_placement.plan",
      R"({"allocations":[],"optimal":true,"rejected":[],)"

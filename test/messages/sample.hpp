@@ -1,6 +1,7 @@
 #pragma once
 
 #include "messages/codec/json_codec.hpp"
+#include "messages/task_update.hpp"
 
 #include <map>
 #include <string>
@@ -48,13 +49,23 @@ private:
     static constexpr std::string_view value = T::type;
   };
 
+  /// The message's type, or the name of a part in which a field holds what it
+  /// holds nowhere else.
+  template <class T>
+  static constexpr std::string_view name_of() {
+    if constexpr (std::is_same_v<T, task_revision>)
+      return "task_revision";
+    else
+      return type_of<T>::value;
+  }
+
   template <class T>
   void fill_struct(T& x) {
     for_each_field<T>([&](const auto& field) {
       using field_type = std::decay_t<decltype(field)>;
       constexpr bool needed = field_type::kind == presence::required
                               || field_type::kind == presence::nullable;
-      context_ = {type_of<T>::value, field.name};
+      context_ = {name_of<T>(), field.name};
       // An envelope without a body is none, although JSON could leave it out.
       if (needed || extent_ == extent::full || context_.second == "body")
         fill(x.*(field.member));

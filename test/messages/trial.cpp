@@ -13,6 +13,7 @@
 #include "messages/rebalance.hpp"
 #include "messages/reservation.hpp"
 #include "messages/session.hpp"
+#include "messages/task_update.hpp"
 #include "messages/topic.hpp"
 #include "schemas/document.hpp"
 #include "test/messages/member_count.hpp"
@@ -105,6 +106,8 @@ std::vector<trial> message_trials() {
   try_messages<skill_addition, skill_added, skill_removal, skill_removed,
                skill_pull, skill_pulled, build_keeping, build_kept,
                build_release, build_released>(result);
+  try_messages<task_update, task_update_plan, task_revisions_query,
+               task_revisions>(result);
   try_messages<image_request, image_offered, image_query, image_known,
                image_sharing, image_shared>(result);
   try_messages<session_hello, session_challenge, session_proof,

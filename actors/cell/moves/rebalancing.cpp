@@ -52,7 +52,7 @@ plan_moves question_of(const cell_coordinator_state& st,
   result.min_gain = request.min_gain;
   result.most_moves = request.most_moves;
   for (const auto& [task, entry] : st.tasks.entries())
-    if (st.tasks.is_running(task))
+    if (st.tasks.is_running(task) && !st.updates.is_updating(task))
       if (const auto known = request_of(entry))
         add_running(st, task, *known, result);
   return result;

@@ -3,6 +3,7 @@
 #include "actors/cell/moves/moved_steps.hpp"
 #include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
+#include "actors/cell/updates/update_guard.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "actors/placement/instance_specs.hpp"
 #include "actors/placement/limits.hpp"
@@ -45,6 +46,8 @@ std::optional<failure> add_steps(coordinator_pointer self, task_move& move,
                                  const std::string& task,
                                  const std::string& node) {
   const auto& st = self->state;
+  if (auto why = why_updating(st, task))
+    return why;
   const auto request = request_of(*st.tasks.find(task));
   if (!request)
     return without_request(task);
@@ -64,6 +67,8 @@ std::optional<failure> add_instance(coordinator_pointer self, task_move& move,
   if (!x || x->end || x->tentative || !st.tasks.is_running(x->spec.task))
     return failure{error_code::conflict,
                    "instance '" + instance + "' does not run any more"};
+  if (auto why = why_updating(st, x->spec.task))
+    return why;
   const auto request = request_of(*st.tasks.find(x->spec.task));
   if (!request)
     return without_request(x->spec.task);

@@ -16,6 +16,7 @@
 #include "actors/cell/tables/transfer_table.hpp"
 #include "actors/cell/tables/unassigned_node_table.hpp"
 #include "actors/cell/tasks/pending_operations.hpp"
+#include "actors/cell/updates/update_table.hpp"
 #include "actors/core/actor_context.hpp"
 #include "actors/core/alarm.hpp"
 #include "actors/edge/dds/ros_graph.hpp"
@@ -34,6 +35,8 @@
 #include <vector>
 
 namespace roscell {
+
+struct update_run;
 
 /// What a coordinator is told when it starts.
 struct coordinator_setup {
@@ -98,6 +101,9 @@ struct cell_coordinator_state {
   node_failures failures;
   ordered_ends orders;
   move_table moves;
+  update_table updates;
+  /// What the messages of each update carry along, by its id in the table.
+  std::map<uint64_t, std::shared_ptr<update_run>> update_runs;
   drain_table drains;
   rebalance_table rebalance;
 

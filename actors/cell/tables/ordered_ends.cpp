@@ -72,11 +72,15 @@ void ordered_ends::end(const std::string& instance, time_point now) {
   make_due(x, now);
 }
 
-void ordered_ends::let_go(const std::string& instance, time_point now) {
-  if (const auto i = ends_.find(instance); i != ends_.end()) {
-    i->second.held = false;
-    make_due(i->second, now);
-  }
+void ordered_ends::let_go(const std::string& instance, time_point now,
+                          std::chrono::milliseconds patience) {
+  const auto i = ends_.find(instance);
+  if (i == ends_.end())
+    return;
+  i->second.held = false;
+  if (patience.count() > 0)
+    i->second.deadline = now + patience;
+  make_due(i->second, now);
 }
 
 void ordered_ends::let_go_of(const std::string& by, time_point now) {

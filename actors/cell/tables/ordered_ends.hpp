@@ -93,7 +93,9 @@ public:
 
   /// Nobody takes care of it any more: it is started anew as soon as it has
   /// ended.
-  void let_go(const std::string& instance, time_point now);
+  /// @param patience for how long that is tried; 0: once.
+  void let_go(const std::string& instance, time_point now,
+              std::chrono::milliseconds patience = {});
 
   /// The same of all that was preempted for a task.
   void let_go_of(const std::string& by, time_point now);

@@ -11,6 +11,8 @@
 namespace roscell {
 
 ROSCELL_CODEC(left_instance)
+ROSCELL_CODEC(revision_history)
+ROSCELL_CODEC(update_record)
 ROSCELL_CODEC(task_record)
 
 namespace {
@@ -117,6 +119,8 @@ task_record record_of(const std::string& task, const task_entry& entry,
   result.request_ids = entry.request_ids;
   result.orders = entry.orders;
   result.deadline_unix_ms = entry.deadline_unix_ms;
+  result.revisions = entry.revisions;
+  result.update = entry.update;
   for (const auto& x : deployments.of_task(task)) {
     result.specs.push_back(x.spec);
     result.nodes.push_back(x.node);
@@ -183,7 +187,9 @@ task_record with_ends(task_record record, const std::vector<instance_end>& ends,
   for (const auto& x : ends)
     if (!find_end(record, x.instance))
       record.ends.push_back(x);
-  if (record.state == task_state::running)
+  // An update that goes on gives it other steps, or puts back those that it
+  // had.
+  if (record.state == task_state::running && record.update.begun_unix_ms == 0)
     record.state = state_after(record);
   if (!is_settled(record.state))
     return record;
@@ -276,6 +282,8 @@ std::optional<task_record> restored(task_record record) {
   if (record.state == task_state::deploying
       || record.state == task_state::terminating)
     return std::nullopt;
+  if (record.update.begun_unix_ms > 0)
+    record.update = {0, "the coordinator ended while the task was updated"};
   const auto tentative = record.tentative;
   return without(std::move(record), tentative);
 }

@@ -14,12 +14,15 @@ const task_entry* task_table::find(const std::string& task) const {
 
 claim_status task_table::claim_status_of(const std::string& task,
                                          const std::string& request,
-                                         const std::string& id) const {
+                                         const std::string& id,
+                                         bool replace) const {
   const auto* entry = find(task);
   if (!entry)
     return claim_status::unknown;
   if (entry->request != request)
-    return claim_status::other_body;
+    return replace && !entry->ending && is_settled(entry->state)
+               ? claim_status::next_run
+               : claim_status::other_body;
   if (entry->ending)
     return claim_status::ending;
   if (entry->state == task_state::deploying)
@@ -48,8 +51,12 @@ void task_table::begin(const std::string& task, const std::string& request,
   fresh.submitted_unix_ms = now_unix_ms;
   if (!id.empty())
     fresh.request_ids.push_back(id);
-  if (const auto* former = find(task))
+  if (const auto* former = find(task)) {
     fresh.run = former->run + 1;
+    fresh.revisions = former->revisions;
+    if (former->request != request)
+      revise(fresh.revisions, former->request, {}, now_unix_ms);
+  }
   entries_[task] = std::move(fresh);
 }
 
@@ -74,6 +81,8 @@ void task_table::apply(const task_record& record) {
   entry.request_ids = record.request_ids;
   entry.orders = record.orders;
   entry.deadline_unix_ms = record.deadline_unix_ms;
+  entry.revisions = record.revisions;
+  entry.update = record.update;
 }
 
 void task_table::forget(const std::string& task) {

@@ -5,6 +5,7 @@
 #include "messages/allocation_report.hpp"
 #include "messages/failure.hpp"
 #include "messages/task.hpp"
+#include "messages/task_update.hpp"
 
 #include <cstdint>
 #include <deque>
@@ -31,6 +32,31 @@ struct left_instance {
   }
 };
 
+/// The requests that a task has had. The present one stands beside it.
+struct revision_history {
+  int64_t revision = 1;      ///< Of the present one.
+  int64_t since_unix_ms = 0; ///< When it became that; 0: from the beginning.
+  std::vector<task_revision> former; ///< The last ones, the newest last.
+
+  static constexpr auto fields() {
+    return field_list{
+        optional("revision", &revision_history::revision),
+        optional("since_unix_ms", &revision_history::since_unix_ms),
+        optional("former", &revision_history::former)};
+  }
+};
+
+/// How the change of a running task stands.
+struct update_record {
+  int64_t begun_unix_ms = 0; ///< 0: it is not being updated.
+  std::string problem;       ///< Of the last one; empty: it went well.
+
+  static constexpr auto fields() {
+    return field_list{optional("begun_unix_ms", &update_record::begun_unix_ms),
+                      optional("problem", &update_record::problem)};
+  }
+};
+
 /// What of a task outlives the coordinator's process: its entry in the task
 /// table and what it has in the deployment table, together.
 struct task_record {
@@ -50,6 +76,8 @@ struct task_record {
   std::vector<end_order> orders;   ///< Instances that were told to end.
   std::vector<left_instance> left; ///< As of when this was written.
   int64_t deadline_unix_ms = 0;    ///< As in `task_row`.
+  revision_history revisions;
+  update_record update;
 
   static constexpr auto fields() {
     return field_list{
@@ -67,7 +95,9 @@ struct task_record {
         optional("request_ids", &task_record::request_ids),
         optional("orders", &task_record::orders),
         optional("left", &task_record::left),
-        optional("deadline_unix_ms", &task_record::deadline_unix_ms)};
+        optional("deadline_unix_ms", &task_record::deadline_unix_ms),
+        optional("revisions", &task_record::revisions),
+        optional("update", &task_record::update)};
   }
 };
 
@@ -83,6 +113,8 @@ struct task_entry {
   std::vector<std::string> request_ids;
   std::vector<end_order> orders;
   int64_t deadline_unix_ms = 0;
+  revision_history revisions;
+  update_record update;
 };
 
 /// How a claim stands to what the table knows.
@@ -102,9 +134,11 @@ public:
   const task_entry* find(const std::string& task) const;
 
   /// @param id Of the request; empty: it has none, and asks for no other run.
+  /// @param replace Another request is the next run of a task that has ended.
   claim_status claim_status_of(const std::string& task,
                                const std::string& request,
-                               const std::string& id) const;
+                               const std::string& id,
+                               bool replace = false) const;
 
   /// Whether the task's present run, or its last one, was asked for under that
   /// id.
@@ -213,6 +247,43 @@ task_record with_restarted(task_record record,
 /// Without these instances.
 task_record without(task_record record,
                     const std::vector<std::string>& instances);
+
+/// A task has had this request until now, with these builds of its steps, and
+/// has its next revision from now on.
+void revise(revision_history& history, std::string former,
+            std::map<std::string, std::string> builds, int64_t now_unix_ms);
+
+/// The requests that a task has had, the present one last.
+std::vector<task_revision> revisions_of(const std::string& task,
+                                        const task_entry& entry,
+                                        const deployment_table& deployments);
+
+// How a task is changed while it runs. Until the last of these is kept the task
+// has its former request, so that a coordinator that ends before puts back all
+// that was replaced: what is tentative goes, and what was told to end is
+// started again.
+
+/// With the new instances of an update beside what runs.
+task_record with_update_begun(task_record record,
+                              const std::vector<replacement>& fresh,
+                              int64_t now_unix_ms);
+
+/// What an update has made of a task.
+struct updated_task {
+  std::string request;
+  std::vector<std::string> steps; ///< Of the request, in its order.
+  std::vector<replacement> fresh;
+};
+
+/// With the new request, and these steps only.
+task_record with_update_done(task_record record, const updated_task& now,
+                             int64_t now_unix_ms);
+
+/// Without the new instances.
+task_record with_update_reverted(task_record record,
+                                 const std::vector<std::string>& fresh,
+                                 const std::string& problem,
+                                 int64_t now_unix_ms);
 
 /// As a restarted coordinator takes it up: without what was tentative. None for
 /// a task that was being deployed or ended: nodes stop its instances when they

@@ -11,6 +11,7 @@
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
+#include "actors/cell/updates/task_updates.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "actors/core/clocks.hpp"
 #include "messages/event_kinds.hpp"
@@ -308,6 +309,7 @@ void on_instance_changed(coordinator_pointer self,
   if (is_doubtful(st, x))
     check_stream_health(self, x.spec.task);
   watch_moved(self, x);
+  watch_updated(self, x);
   if (!is_live(x.state))
     on_instance_gone(self, *node, id);
   if (const auto* placed = st.deployments.find(id, *node))

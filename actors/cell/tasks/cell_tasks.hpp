@@ -76,6 +76,12 @@ std::vector<std::string> steps_to_heal(const cell_coordinator_state& st,
 void heal_task(coordinator_pointer self, const std::string& task,
                const completion_handler& done);
 
+/// The same, but for an update: on the nodes where they were, or, where they do
+/// not fit there, where they do.
+void start_where_they_were(coordinator_pointer self, const std::string& task,
+                           const std::vector<std::string>& instances,
+                           const completion_handler& done);
+
 /// Starts these instances of a task, which have ended, where they fit. All or
 /// nothing, as above; what is gone meanwhile is none.
 /// @param done called once: when they run, or cannot.

@@ -49,16 +49,6 @@ void leave_line(coordinator_pointer self, const caf::actor_addr& owner) {
                 waiting.end());
 }
 
-namespace {
-
-/// Resources of one cell, as the answers come in.
-struct resource_tally {
-  size_t open = 0;
-  std::map<std::string, node_resources> nodes;
-  std::function<void(cell_resources&&)> done;
-};
-
-/// What the steps write that are deployed and have not ended.
 std::vector<deployed_end> written_in(const cell_coordinator_state& st) {
   std::vector<deployed_end> result;
   for (const auto& [task, entry] : st.tasks.entries())
@@ -69,11 +59,20 @@ std::vector<deployed_end> written_in(const cell_coordinator_state& st) {
   return result;
 }
 
+namespace {
+
+/// Resources of one cell, as the answers come in.
+struct resource_tally {
+  size_t open = 0;
+  std::map<std::string, node_resources> nodes;
+  std::function<void(cell_resources&&)> done;
+};
+
 /// What runs in the cell, of any priority.
 std::vector<evictable_instance> evictable_in(const cell_coordinator_state& st) {
   std::vector<evictable_instance> result;
   for (const auto& [task, entry] : st.tasks.entries()) {
-    if (!st.tasks.is_running(task))
+    if (!st.tasks.is_running(task) || st.updates.is_updating(task))
       continue;
     for (const auto& x : st.deployments.of_task(task))
       if (!x.end && !x.tentative && !st.orders.find(x.spec.instance))

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 /// The placement lock, and the resources that a placement may count on.
 /// Whatever is placed takes the lock and holds it until what was placed is
@@ -29,6 +30,9 @@ void leave_line(coordinator_pointer self, const caf::actor_addr& owner);
 void collect_resources_of_cell(
     coordinator_pointer self,
     const std::function<void(cell_resources&&)>& done);
+
+/// What the steps write that are deployed and have not ended.
+std::vector<deployed_end> written_in(const cell_coordinator_state& st);
 
 caf::result<cell_resources> answer_resources(coordinator_pointer self);
 

@@ -71,7 +71,8 @@ bool answer_known(coordinator_pointer self, const claim_task& request,
                   claim_promise promise) {
   auto& st = self->state;
   const auto& task = request.task;
-  switch (st.tasks.claim_status_of(task, request.request, request.request_id)) {
+  switch (st.tasks.claim_status_of(task, request.request, request.request_id,
+                                   request.replace)) {
   case claim_status::unknown:
   case claim_status::next_run: {
     const auto why = remains_of(self, task, request.force);

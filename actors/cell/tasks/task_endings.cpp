@@ -7,6 +7,7 @@
 #include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
+#include "actors/cell/updates/update_guard.hpp"
 #include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
@@ -200,6 +201,7 @@ caf::result<task_terminated> terminate_task(coordinator_pointer self,
     end_anyway(self, request);
     return promise;
   }
+  drop_update(self, task);
   const auto owner = waiters.owner;
   release_placement_lock(self, waiters.placement_lock);
   record_ending(self, task);

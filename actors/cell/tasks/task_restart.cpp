@@ -4,6 +4,7 @@
 #include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_views.hpp"
+#include "actors/cell/updates/update_guard.hpp"
 #include "actors/core/answer_limits.hpp"
 #include "messages/failure.hpp"
 
@@ -139,7 +140,9 @@ struct restart_plan {
 restart_plan plan_restart(const cell_coordinator_state& st,
                           const task_restart& request) {
   restart_plan result;
-  result.problem = hindrance(st, request.task);
+  result.problem = why_updating(st, request.task);
+  if (!result.problem)
+    result.problem = hindrance(st, request.task);
   for (const auto& x : st.deployments.of_task(request.task)) {
     if (!request.instance.empty() && x.spec.instance != request.instance)
       continue;
@@ -193,6 +196,8 @@ std::vector<std::string> steps_to_heal(const cell_coordinator_state& st,
 void heal_task(coordinator_pointer self, const std::string& task,
                const completion_handler& done) {
   const auto& st = self->state;
+  if (const auto why = why_updating(st, task))
+    return done(*why);
   instance_list wanted;
   std::string gone;
   for (const auto& x : st.deployments.of_task(task)) {
@@ -217,7 +222,22 @@ void heal_task(coordinator_pointer self, const std::string& task,
 void start_ended(coordinator_pointer self, const std::string& task,
                  const std::vector<std::string>& instances,
                  const completion_handler& done) {
+  if (const auto why = why_updating(self->state, task))
+    return done(*why);
   take_placement_lock_to_start(self, task, instances, {}, done);
+}
+
+void start_where_they_were(coordinator_pointer self, const std::string& task,
+                           const std::vector<std::string>& instances,
+                           const completion_handler& done) {
+  take_placement_lock_to_start(
+      self, task, instances, instances,
+      [self, task, instances, done](const completion& started) {
+        if (started
+            || started.error().code != error_code::no_feasible_allocation)
+          return done(started);
+        take_placement_lock_to_start(self, task, instances, {}, done);
+      });
 }
 
 caf::result<task_restarted> restart_task(coordinator_pointer self,

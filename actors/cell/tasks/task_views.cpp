@@ -1,6 +1,7 @@
 #include "actors/cell/tasks/task_views.hpp"
 
 #include "actors/cell/moves/abandoned_steps.hpp"
+#include "actors/cell/moves/moved_steps.hpp"
 #include "actors/cell/streams/cell_streams.hpp"
 #include "messages/failure.hpp"
 
@@ -59,6 +60,15 @@ task_state state_now(const cell_coordinator_state& st, const std::string& task,
                                                         : entry.state;
 }
 
+/// The labels of a task, which its request has.
+std::map<std::string, std::string> task_labels(const task_entry& entry) {
+  // Few have any, and a request may be long.
+  if (entry.request.find("\"labels\"") == std::string::npos)
+    return {};
+  const auto request = request_of(entry);
+  return request ? request->labels : std::map<std::string, std::string>{};
+}
+
 task_row describe_task(const cell_coordinator_state& st,
                        const std::string& task, const task_entry& entry) {
   task_row result{task,
@@ -67,7 +77,11 @@ task_row describe_task(const cell_coordinator_state& st,
                   entry.ended_unix_ms,
                   {},
                   entry.run,
-                  entry.deadline_unix_ms};
+                  entry.deadline_unix_ms,
+                  entry.revisions.revision,
+                  st.updates.text(task),
+                  entry.update.problem,
+                  task_labels(entry)};
   for (const auto& x : st.deployments.of_task(task))
     result.instances.push_back(shown(st, st.deployments.row_of(x)));
   sort_by_flow(result.instances);

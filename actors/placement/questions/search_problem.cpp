@@ -11,18 +11,16 @@
 
 namespace roscell {
 
-namespace {
-
-allocation::amount convert(const amount& x) {
-  return {x.capacity, x.used};
-}
-
-/// To say "on that robot" needs no label of its own: each node has one with its
-/// name, unless its operator has given it another value.
 std::map<std::string, std::string> labels_of(const node_resources& x) {
   auto result = x.labels;
   result.emplace("node", x.name);
   return result;
+}
+
+namespace {
+
+allocation::amount convert(const amount& x) {
+  return {x.capacity, x.used};
 }
 
 allocation::node convert(const node_resources& x) {

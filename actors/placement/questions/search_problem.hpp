@@ -55,6 +55,10 @@ private:
 
 // From messages to what the search works on.
 
+/// To say "on that robot" needs no label of its own: each node has one with its
+/// name, unless its operator has given it another value.
+std::map<std::string, std::string> labels_of(const node_resources& x);
+
 /// Position of a step; the number of steps if there is none of that id.
 size_t step_position(const std::vector<resolved_step>& steps,
                      const std::string& id);

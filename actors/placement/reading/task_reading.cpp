@@ -99,6 +99,14 @@ std::vector<task_step> steps_of(const written_pipeline& x) {
 
 } // namespace
 
+std::string body_of(task_request request) {
+  request.preempt = preemption::none;
+  request.force = false;
+  request.replace = false;
+  request.request_id.clear();
+  return message_json(request).dump();
+}
+
 std::variant<task_reading, failure>
 read_task(const std::string& task, const std::vector<task_step>& pipeline,
           const reading_context& cell, const std::string& pointer) {

@@ -28,6 +28,10 @@ struct reading_context {
   std::optional<std::vector<io_endpoint>> topics;
 };
 
+/// What tells a request from another one of its task, as JSON: the way in which
+/// it is carried out does not.
+std::string body_of(task_request request);
+
 /// Reads a pipeline. Errors: those of `resolve_steps`, and schema_violation
 /// with every place where a short form, a parameter or the wiring is wrong;
 /// pointers begin with `pointer`.

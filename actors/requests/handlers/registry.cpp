@@ -54,6 +54,8 @@ void add_cell_queries(request_registry& registry) {
   registry.add(forward_within<cell_list_query, cell_list>(soon, whom));
   registry.add(forward_within<topic_query, topic_list>(soon, whom));
   registry.add(forward_within<task_query, task_description>(soon, whom));
+  registry.add(
+      forward_within<task_revisions_query, task_revisions>(soon, whom));
   registry.add(await_task_change);
   registry.add(forward_within<task_history_query, task_history>(soon, whom));
   registry.add(start_with("read_resources", read_resources)
@@ -74,6 +76,8 @@ void add_cell_commands(request_registry& registry) {
   registry.add(forward_within<task_termination, task_terminated>(
       limits::task::termination, whom));
   registry.add(forward_within<task_restart, task_restarted>(
+      limits::task::restart, whom));
+  registry.add(forward_within<task_update, task_update_plan>(
       limits::task::restart, whom));
   registry.add(forward_within<node_drain, node_drained>(soon, whom));
   registry.add(forward_within<node_undrain, node_undrained>(soon, whom));

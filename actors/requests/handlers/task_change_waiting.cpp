@@ -147,7 +147,9 @@ std::shared_ptr<const void> take_place(const request_context& context) {
 std::string mark_of(const task_description& task) {
   std::string text;
   for (const auto& row : task.tasks) {
-    text += std::string{to_string(row.state)} + '\n' + std::to_string(row.run);
+    text += std::string{to_string(row.state)} + '\n' + std::to_string(row.run)
+            + '\n' + std::to_string(row.revision) + '\n' + row.updating + '\n'
+            + row.update_problem;
     for (const auto& x : row.instances)
       text += '\n' + x.spec.instance + '\t' + x.node + '\t'
               + std::string{to_string(x.state)} + '\t' + x.reason;

@@ -18,15 +18,6 @@ namespace roscell {
 
 namespace {
 
-/// What tells a request from another one of its task: the way in which room was
-/// made for it does not.
-std::string text_of(task_request request) {
-  request.preempt = preemption::none;
-  request.force = false;
-  request.request_id.clear();
-  return message_json(request).dump();
-}
-
 bool has_node(const std::vector<node_resources>& nodes,
               const std::string& name) {
   return std::any_of(nodes.begin(), nodes.end(),
@@ -73,8 +64,8 @@ std::optional<failure> think_otherwise(const what_if& other,
 
 void claim(const request_context& context, task_request request,
            outcome<claimed_task> done) {
-  claim_task claim_request{request.task, text_of(request), request.request_id,
-                           request.force};
+  claim_task claim_request{request.task, body_of(request), request.request_id,
+                           request.force, request.replace};
   // Without the coordinator nobody wants what is deployed.
   watch_until_own_end(context.self, context.services->coordinator);
   ask<task_claimed>(context, context.services->coordinator, limits::task::claim,

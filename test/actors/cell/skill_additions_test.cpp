@@ -290,4 +290,43 @@ TEST_CASE_METHOD(shared_cell,
   CHECK(error_of(add_skill("nobody")) == "unknown_node");
 }
 
+TEST_CASE_METHOD(shared_cell,
+                 "A newer build is at the node before a step ends for it",
+                 "[builds][task_updates]") {
+  add_skill();
+  REQUIRE(run_shout("leg").at("type") == "task_accepted");
+  const std::string newer(64, 'd');
+  kept_builds[newer] = shout_skill(newer);
+  kept_builds[newer].version = "1.1";
+  REQUIRE(add_skill("arm", newer).at("type") == "skill_added");
+  auto step = echo_step("s0", 1, "leg");
+  step["operation"] = "shout";
+  auto document = echo_task("t", {step});
+  document["type"] = "task_update";
+  const auto with = [&](const char* option) {
+    auto result = document;
+    result[option] = true;
+    return request(result);
+  };
+  CHECK(with("keep_builds").at("outcome") == "unchanged");
+  CHECK(with("dry_run").at("changes")[0].at("reasons").size() == 1);
+  // It does not come: nothing has ended for it.
+  leg.gets_nothing = true;
+  const auto old = leg.running.begin()->first;
+  REQUIRE(request(document).at("outcome") == "begun");
+  time.advance(11s);
+  CHECK(leg.running.count(old) == 1);
+  CHECK(leg.deployments.size() == 1);
+  leg.gets_nothing = false;
+  bool was_running = false;
+  leg.on_keeping = [&] { was_running = leg.running.count(old) == 1; };
+  REQUIRE(request(document).at("outcome") == "begun");
+  time.advance(11s);
+  CHECK(was_running);
+  REQUIRE(leg.running.size() == 1);
+  CHECK(leg.running.begin()->second.spec.skill == newer);
+  CHECK(leg.keepings.back().offer.build.hash == newer);
+  CHECK_FALSE(leg.keepings.back().pinned);
+}
+
 } // namespace roscell::test
