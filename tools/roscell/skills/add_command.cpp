@@ -1,101 +1,27 @@
 #include "actors/builds/limits.hpp"
-#include "messages/node.hpp"
 #include "messages/skill.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
-#include "tools/roscell/skills/build_upload.hpp"
-#include "tools/roscell/skills/unpack_archive.hpp"
+#include "tools/roscell/skills/cell_skills.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
 
 #include <CLI/CLI.hpp>
-#include <stdlib.h>
 
-#include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
-#include <variant>
 
 namespace roscell::cli {
 
 namespace {
-
-constexpr uint64_t bytes_of_mib = 1024 * 1024;
 
 struct add_options {
   connection_options connection;
   std::string output = "table";
   std::string source; ///< A folder, or an archive.
 };
-
-/// Where an archive is unpacked; gone with it.
-class scratch_folder {
-public:
-  scratch_folder() {
-    auto name = (std::filesystem::temp_directory_path() / "roscell-add-XXXXXX")
-                    .string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw command_error{exit_refused,
-                          "cannot make a folder in '" + name + "'",
-                          "$TMPDIR says where"};
-    path_ = name;
-  }
-
-  ~scratch_folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-
-  scratch_folder(const scratch_folder&) = delete;
-  scratch_folder& operator=(const scratch_folder&) = delete;
-
-  const std::filesystem::path& path() const {
-    return path_;
-  }
-
-private:
-  std::filesystem::path path_;
-};
-
-/// The skill's folder: the one that was named, or what an archive holds.
-std::filesystem::path skill_folder_of(const std::string& source,
-                                      const scratch_folder& scratch) {
-  std::error_code error;
-  if (std::filesystem::is_directory(source, error))
-    return source;
-  if (!std::filesystem::is_regular_file(source, error))
-    throw command_error{exit_usage,
-                        "'" + printable(source)
-                            + "' is neither a folder nor an archive",
-                        "name the folder that holds skill.json, or a tar or "
-                        "zip archive of it"};
-  return unpack_archive(source, scratch.path());
-}
-
-described_build read_build(const std::filesystem::path& folder) {
-  auto build = describe_folder(folder);
-  if (const auto* why = std::get_if<edge_error>(&build))
-    throw command_error{exit_refused, printable(why->message),
-                        printable(why->hint)};
-  return std::get<described_build>(std::move(build));
-}
-
-/// Says each tenth of what has come, to somebody who waits.
-upload_progress shown_progress(const std::string& node) {
-  constexpr uint64_t steps = 10;
-  return [node, last = uint64_t{0}](uint64_t done, uint64_t all) mutable {
-    const auto step = all == 0 ? steps : done * steps / all;
-    if (step == last || !stderr_is_terminal())
-      return;
-    last = step;
-    print_note(std::to_string(done / bytes_of_mib) + " of "
-               + std::to_string(all / bytes_of_mib) + " MiB are on '"
-               + printable(node) + "'");
-  };
-}
 
 std::string names_in_words(const std::vector<std::string>& names) {
   std::string result;
@@ -113,17 +39,9 @@ std::string added_text(const cell_build& x) {
 }
 
 int add_skill(const add_options& options) {
-  const scratch_folder scratch;
-  const auto folder = skill_folder_of(options.source, scratch);
-  const auto build = read_build(folder);
   const node_client node{options.connection};
-  const auto name = node.get("/v1/node").get<node_description>().identity.name;
-  upload_build(node, folder, build, shown_progress(name));
-  const auto reply = unless_refused(
-      node.post("/v1/requests",
-                message_json(skill_addition{build.name, name}).dump(),
-                limits::build::addition),
-      options.output == "json");
+  const auto reply =
+      add_to_cell(node, options.source, "", options.output == "json");
   print(options.output == "json" ? pretty(reply)
                                  : added_text(reply.get<skill_added>().added));
   return exit_done;

@@ -1,11 +1,10 @@
 #include "actors/builds/limits.hpp"
-#include "messages/node.hpp"
 #include "messages/skill.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
-#include "tools/roscell/skills/build_download.hpp"
+#include "tools/roscell/skills/cell_skills.hpp"
 #include "tools/roscell/view/format.hpp"
 
 #include <CLI/CLI.hpp>
@@ -26,21 +25,17 @@ struct pull_options {
 
 int pull_skill(const pull_options& options) {
   const node_client node{options.connection};
-  auto request = options.request;
-  request.node = node.get("/v1/node").get<node_description>().identity.name;
-  const auto reply =
-      unless_refused(node.post("/v1/requests", message_json(request).dump(),
-                               limits::build::pull),
-                     options.output == "json");
-  const auto pulled = reply.get<skill_pulled>().pulled;
   const auto folder =
-      options.folder.empty() ? request.operation : options.folder;
-  download_build(node, pulled.build, folder);
+      options.folder.empty() ? options.request.operation : options.folder;
+  const auto reply =
+      pull_from_cell(node, options.request.operation, options.request.build,
+                     folder, options.output == "json");
+  const auto pulled = reply.get<skill_pulled>().pulled;
   print(options.output == "json"
             ? pretty(reply)
             : "build "
                   + pulled.build.hash.substr(0, limits::build::shown_digits)
-                  + " of '" + printable(request.operation) + "' is in '"
+                  + " of '" + printable(options.request.operation) + "' is in '"
                   + printable(folder) + "'\n");
   return exit_done;
 }
