@@ -47,10 +47,13 @@ std::string waits_of(const task_row& task, int64_t now_unix_ms) {
   return joined(words, "; ");
 }
 
-/// What the steps of a task say that run and do not do well: "rectify: 118
-/// frames in, none out". What is wrong with others follows from the state.
+/// How far a task's update is, and what its steps say that run and do not do
+/// well: "rectify: 118 frames in, none out". What is wrong with others follows
+/// from the state.
 std::string text_of_running(const task_row& task, int64_t now_unix_ms) {
   std::vector<std::string> words;
+  if (!task.updating.empty())
+    words.push_back("is being updated, " + task.updating);
   for (const auto& row : task.instances)
     if (row.state == instance_state::running && !is_unknown(row)
         && !runs_well(row))

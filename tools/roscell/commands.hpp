@@ -24,11 +24,16 @@ void add_form_commands(CLI::App& app, action& chosen);
 void add_drain_commands(CLI::App& app, action& chosen);
 void add_rebalance_command(CLI::App& app, action& chosen);
 
+/// apply, diff and export, below `cell`.
+void add_cell_command(CLI::App& app, action& chosen);
+
 /// status, cells, nodes, transfers, tasks, instances, topics, skills.
 void add_show_commands(CLI::App& app, action& chosen);
 
-/// run, stop, restart.
+/// run, apply, rollback, stop, restart.
 void add_task_commands(CLI::App& app, action& chosen);
+void add_apply_command(CLI::App& app, action& chosen);
+void add_rollback_command(CLI::App& app, action& chosen);
 void add_stop_command(CLI::App& app, action& chosen);
 
 void add_check_command(CLI::App& app, action& chosen);

@@ -43,10 +43,10 @@ next_lane() {
 }
 
 engines=0
-for file in *_test.sh; do
+for file in *_test.sh */*_test.sh; do
   mapfile -t tests < <(grep -oE '^test_[a-z0-9_]+' "$file" | grep -E "$pattern")
   [[ ${#tests[@]} -gt 0 ]] || continue
-  name=${file%_test.sh}
+  name=$(basename "$file" _test.sh)
   if grep -q '^before_all()' "$file"; then
     while read -r variant; do
       entry=$name

@@ -107,16 +107,78 @@ json task_file::request() const {
   return result;
 }
 
+namespace {
+
+/// Parses the text of a file, which is one document.
+json parsed(const task_file& file, document_format format) {
+  auto result = parse_document(file.text, format);
+  if (auto* why = std::get_if<failure>(&result))
+    throw wrong_document{file, std::move(*why)};
+  return std::get<json>(std::move(result));
+}
+
+/// Fills in what the file's document leaves open.
+void fill(task_file& file, json document, const file_values& values) {
+  auto result = fill_from(std::move(document), values);
+  if (auto* why = std::get_if<failure>(&result))
+    throw wrong_document{file, std::move(*why)};
+  file.document = std::get<json>(std::move(result));
+}
+
+/// A task may say that it is one, for cells have documents, too. Another kind
+/// stays for the schema to refuse.
+void take_kind(task_file& file) {
+  auto& document = file.document;
+  if (document.is_object() && document.value("kind", json{}) == "task")
+    document.erase("kind");
+}
+
+void expect_task(const task_file& file) {
+  const auto& document = file.document;
+  if (document.is_object() && document.contains("kind"))
+    throw wrong_document{file,
+                         {error_code::schema_violation,
+                          "expected the kind \"task\"", "/kind",
+                          "`roscell cell apply` takes the document of a cell"}};
+}
+
+} // namespace
+
 task_file read_task_file(const std::string& name, const file_values& values) {
   task_file result{name, read_file(name), {}, {}};
-  auto parsed = parse_document(result.text, format_of(name, result.text));
-  if (auto* document = std::get_if<json>(&parsed))
-    parsed = fill_from(std::move(*document), values);
-  if (auto* why = std::get_if<failure>(&parsed))
-    throw wrong_document{std::move(result), std::move(*why)};
-  result.document = std::get<json>(std::move(parsed));
+  fill(result, parsed(result, format_of(name, result.text)), values);
+  take_kind(result);
   if (result.document.is_object() && result.document.contains("request"))
     result.request_at = "/request";
+  return result;
+}
+
+std::vector<task_file> read_task_files(const std::string& name,
+                                       const file_values& values) {
+  const auto text = read_file(name);
+  std::vector<task_file> result;
+  if (format_of(name, text) == document_format::yaml) {
+    for (auto& part : yaml_documents(text)) {
+      result.push_back({name, std::move(part), {}, {}});
+      auto& file = result.back();
+      fill(file, parsed(file, document_format::yaml), values);
+      take_kind(file);
+      expect_task(file);
+    }
+    return result;
+  }
+  const task_file whole{name, text, {}, {}};
+  const auto document = parsed(whole, document_format::json);
+  const auto count = document.is_array() ? document.size() : 1;
+  for (size_t i = 0; i < count; ++i) {
+    result.push_back({name, text, {}, {}});
+    auto& file = result.back();
+    if (document.is_array())
+      file.document_at = "/" + std::to_string(i);
+    fill(file, document.is_array() ? document[i] : document, values);
+    take_kind(file);
+    expect_task(file);
+  }
   return result;
 }
 

@@ -2,10 +2,12 @@
 
 #include "messages/codec/json_codec.hpp"
 #include "messages/failure.hpp"
+#include "tools/roscell/client/document_parts.hpp"
 #include "tools/roscell/client/file_values.hpp"
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace roscell::cli {
 
@@ -30,6 +32,8 @@ struct task_file {
   json document;
   /// JSON pointer of the request in the document: "" or "/request".
   std::string request_at;
+  /// JSON pointer of the document in the text.
+  std::string document_at = {};
 
   /// The request itself, with its "type".
   json request() const;
@@ -39,12 +43,18 @@ struct task_file {
 /// cannot be parsed or filled in, and command_error if it cannot be read.
 task_file read_task_file(const std::string& name, const file_values& values);
 
+/// The task requests of a file, which may hold several documents: parted by
+/// `---` lines in YAML, as a list in JSON. Each may say `kind: task`. Throws as
+/// above; variables are those of each document.
+std::vector<task_file> read_task_files(const std::string& name,
+                                       const file_values& values);
+
 /// A document is refused: what is wrong is shown with marks under the places.
 class wrong_document : public std::runtime_error {
 public:
   wrong_document(task_file file, failure why)
-      : std::runtime_error{why.message}, file{std::move(file)}, why{std::move(
-                                                                    why)} {}
+      : std::runtime_error{why.message}, file{std::move(file)},
+        why{within(std::move(why), this->file.document_at)} {}
 
   task_file file;
   failure why;

@@ -1,7 +1,9 @@
 #include "tools/roscell/commands/show.hpp"
 
+#include "actors/core/clocks.hpp"
 #include "actors/edge/http/http_target.hpp"
 #include "messages/task.hpp"
+#include "messages/task_update.hpp"
 #include "tools/roscell/client/watch.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
@@ -11,6 +13,7 @@
 #include "tools/roscell/view/plan_view.hpp"
 #include "tools/roscell/view/task_replies.hpp"
 #include "tools/roscell/view/terminal.hpp"
+#include "tools/roscell/view/update_view.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -145,6 +148,10 @@ int show_subject(const subject& what, const show_options& options) {
     print_history(node, options.argument, options.as_json());
     return exit_done;
   }
+  if (options.revisions) {
+    print_revisions(node, options.argument, options.as_json());
+    return exit_done;
+  }
   auto path = std::string{what.path};
   if (!options.argument.empty())
     path += "/" + percent_encode(options.argument);
@@ -233,6 +240,19 @@ CLI::App* add_show_command(CLI::App& app, const char* name,
 
 namespace {
 
+/// What can be asked of one task besides.
+void add_task_flags(CLI::App& command, show_options& options) {
+  auto* task = command.get_option("TASK");
+  auto* history = command.add_flag("--history", options.history,
+                                   "Show what has happened to TASK, in order");
+  history->needs(task);
+  command
+      .add_flag("--revisions", options.revisions,
+                "Show the requests that TASK has had")
+      ->needs(task)
+      ->excludes(history);
+}
+
 void add_subject_command(CLI::App& app, const subject& what, const char* name,
                          action& chosen) {
   auto options = std::make_shared<show_options>();
@@ -242,10 +262,7 @@ void add_subject_command(CLI::App& app, const subject& what, const char* name,
   if (what.argument != nullptr)
     command->add_option(what.argument, options->argument, "Only this one");
   if (command->get_name() == "tasks")
-    command
-        ->add_flag("--history", options->history,
-                   "Show what has happened to TASK, in order")
-        ->needs(command->get_option("TASK"));
+    add_task_flags(*command, *options);
   command->callback([&chosen, &what, options, command] {
     // A command below it has been chosen already.
     if (command->get_subcommands().empty())
@@ -283,6 +300,15 @@ namespace {
 constexpr std::chrono::seconds history_limit{10};
 
 } // namespace
+
+void print_revisions(const node_client& node, const std::string& task,
+                     bool as_json) {
+  const auto reply =
+      node.ask(message_json(task_revisions_query{task}), history_limit);
+  print(as_json ? pretty(reply)
+                : revisions_view(reply.get<task_revisions>(), stdout_style(),
+                                 unix_now_ms()));
+}
 
 void print_history(const node_client& node, const std::string& task,
                    bool as_json) {

@@ -21,6 +21,7 @@ struct show_options {
   bool actors = false;
   bool cost = false;
   bool history = false;
+  bool revisions = false;
 
   bool as_json() const {
     return output == "json" || output == "jsonl";
@@ -45,6 +46,10 @@ CLI::App* add_show_command(CLI::App& app, const char* name,
                            const options_ptr& options);
 
 void add_status_command(CLI::App& app, action& chosen);
+
+/// Prints the requests that a task has had; as JSON if so wanted.
+void print_revisions(const node_client& node, const std::string& task,
+                     bool as_json);
 
 /// Prints what has happened to a task, in order; as JSON if so wanted.
 void print_history(const node_client& node, const std::string& task,

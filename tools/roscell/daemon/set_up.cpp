@@ -49,6 +49,7 @@ void set_up(CLI::App& app, action& chosen) {
   add_form_commands(app, chosen);
   add_drain_commands(app, chosen);
   add_rebalance_command(app, chosen);
+  add_cell_command(app, chosen);
   add_show_commands(app, chosen);
   add_describe_command(app, chosen);
   add_graph_command(app, chosen);

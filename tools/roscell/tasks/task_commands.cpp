@@ -1,4 +1,3 @@
-#include "actors/edge/io/crypto.hpp"
 #include "schemas/message_catalogue.hpp"
 #include "tools/roscell/client/documents.hpp"
 #include "tools/roscell/client/node_client.hpp"
@@ -6,8 +5,7 @@
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
-#include "tools/roscell/tasks/preemption.hpp"
-#include "tools/roscell/tasks/task_options.hpp"
+#include "tools/roscell/tasks/task_apply.hpp"
 #include "tools/roscell/tasks/wait_finished.hpp"
 #include "tools/roscell/view/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
@@ -22,11 +20,11 @@ namespace roscell::cli {
 
 namespace {
 
-struct run_options : task_options {
+struct run_options : apply_options {
   std::string file;
   file_values values;
   bool wait_finished = false;
-  preemption_options preemption;
+  bool replace = false;
 };
 
 struct restart_options : task_options {
@@ -38,18 +36,31 @@ void print_warnings(const std::vector<std::string>& warnings) {
     print_note("warning: " + printable(warning));
 }
 
-/// Somebody who types the command wants the task to run: once more, where it
-/// has ended. Programs that may have to repeat themselves say an id of theirs.
-void add_request_id(json& request) {
-  constexpr size_t bytes = 16;
-  if (request.count("request_id") == 0)
-    request["request_id"] = "run-" + to_hex(random_bytes(bytes));
+/// A task of that name runs, and has another request: its steps are ended, and
+/// those of the new one started. The reply is the one to the same request
+/// again.
+json run_in_its_place(const run_options& options, const node_client& node,
+                      const task_file& file, const json& request) {
+  try {
+    replace_all(options, node, request);
+  } catch (const refused& why) {
+    throw wrong_document{file, failure_from(why.reply)};
+  }
+  return ask_about(options, request.value("task", ""), request);
+}
+
+/// A task of that name has another request, and runs.
+bool is_taken(const json& reply) {
+  return reply.value("type", "") == "error"
+         && failure_from(reply).code == error_code::task_exists;
 }
 
 int run_task(const run_options& options) {
   const auto file = read_task_file(options.file, options.values);
   auto request = file.request();
   apply(options.preemption, request);
+  if (options.replace)
+    request["replace"] = true;
   add_request_id(request);
   if (auto why = validate_request(request))
     throw wrong_document{file, *why};
@@ -57,7 +68,9 @@ int run_task(const run_options& options) {
   const node_client node{options.connection};
   const auto since =
       options.wait_finished ? last_event_of_coordinator(node) : 0;
-  const auto reply = ask_about(options, task, request);
+  auto reply = ask_about(options, task, request);
+  if (options.replace && is_taken(reply))
+    reply = run_in_its_place(options, node, file, request);
   if (reply.value("type", "") == "error")
     throw wrong_document{file, failure_from(reply)};
   const auto accepted = reply.get<task_accepted>();
@@ -119,6 +132,9 @@ void add_run(CLI::App& app, action& chosen) {
   command->add_flag("--wait-finished", options->wait_finished,
                     "Wait until the task has ended by itself; the exit code is "
                     "that of its first step that failed");
+  command->add_flag("--replace", options->replace,
+                    "Where a task of that name has another request, end its "
+                    "steps and start these; if they have no place it goes on");
   add_value_options(*command, options->values);
   add_preemption_options(*command, options->preemption);
   command->callback([&chosen, options] {
@@ -149,6 +165,8 @@ void add_restart(CLI::App& app, action& chosen) {
 
 void add_task_commands(CLI::App& app, action& chosen) {
   add_run(app, chosen);
+  add_apply_command(app, chosen);
+  add_rollback_command(app, chosen);
   add_stop_command(app, chosen);
   add_restart(app, chosen);
 }

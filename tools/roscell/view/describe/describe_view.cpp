@@ -93,6 +93,15 @@ void describe_program(page& out, const instance_row& row) {
   out.detail("Folder", row.image);
 }
 
+/// How far its update is, or why the last one was put back; or nothing.
+std::string update_text(const task_row& row) {
+  if (!row.updating.empty())
+    return "goes on, " + row.updating;
+  return row.update_problem.empty()
+             ? ""
+             : "what was replaced was put back: " + row.update_problem;
+}
+
 /// Where the task's steps were placed, and the score of that, if the node still
 /// has the event.
 std::string allocation_text(const known_cell& known, const std::string& task) {
@@ -124,6 +133,9 @@ void describe_task(page& out, const known_cell& known, const std::string& name,
     out.detail("Submitted", time_and_age_text(row.submitted_unix_ms, style));
     out.detail("Run", std::to_string(row.run));
     out.detail("Ends at", deadline_text(row.deadline_unix_ms));
+    out.detail("Revision", std::to_string(row.revision));
+    out.sentence("Update", update_text(row));
+    out.detail("Labels", listed(row.labels));
   }
   out.detail("Allocation", allocation_text(known, name));
   const auto steps = of_task(known, name);
