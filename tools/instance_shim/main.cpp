@@ -24,6 +24,11 @@
 /// With cgroups the command is put into them, and ends with all who are there.
 /// The shim stays outside: it is neither bounded nor ended along with them.
 ///
+/// A command that somebody is attached to has the shim's own standard streams,
+/// leaves no records, and ends with descriptor 3, whose other end is with who
+/// has started the shim. It is put into cgroups, but ends without those who are
+/// there already: it runs beside an instance. The exit code is the command's.
+///
 /// Without a folder it is the first process of a container, whose engine keeps
 /// the log: the output is left alone, and the exit code is that of the command,
 /// 128 + n after signal n. How it ended goes into a file of the host as well.
@@ -57,7 +62,7 @@ int complain(const char* what, const char* subject) {
 }
 
 /// Cuts the ties to the process that started the shim.
-void detach() {
+void detach(attachment attached) {
   // Fails for the leader of a process group, which a node never starts.
   ::setsid();
   // A standard stream that is missing would be mistaken for the next file
@@ -65,7 +70,8 @@ void detach() {
   auto filled = 0;
   while (filled >= 0 && filled <= STDERR_FILENO)
     filled = ::open("/dev/null", O_RDWR);
-  ::close_range(3, ~0U, 0);
+  ::fcntl(lifeline, F_SETFD, FD_CLOEXEC);
+  ::close_range(attached == attachment::none ? lifeline : lifeline + 1, ~0U, 0);
   // Descendants that lose their parent become children of the shim, so that
   // none is left when the instance ends.
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
@@ -94,6 +100,22 @@ child_end end_of(const supervision& x) {
   return {x.wait_status, x.fenced, x.terminated, read_memory(x.cgroups)};
 }
 
+int code_of(const supervision& x) {
+  return WIFSIGNALED(x.wait_status) ? 128 + WTERMSIG(x.wait_status)
+                                    : WEXITSTATUS(x.wait_status);
+}
+
+/// Beside an instance, whose cgroups are not to be emptied.
+int run_attached(const options& o, supervision& x) {
+  x.cgroups = {};
+  x.lifeline = ::fcntl(lifeline, F_GETFD) < 0 ? -1 : lifeline;
+  x.child = start_child(o, -1);
+  if (x.child < 0)
+    return start_failed(o);
+  supervise(x);
+  return code_of(x);
+}
+
 /// The first process of a container.
 int run_plain(const options& o, supervision& x) {
   exit_record record{o.exit_file};
@@ -108,8 +130,7 @@ int run_plain(const options& o, supervision& x) {
   // Not each engine tells it: Podman 4.3 does not with cgroups of version 1.
   end.memory = read_own_memory();
   record.write(end, nullptr);
-  return WIFSIGNALED(x.wait_status) ? 128 + WTERMSIG(x.wait_status)
-                                    : WEXITSTATUS(x.wait_status);
+  return code_of(x);
 }
 
 int run_recorded(const options& o, supervision& x) {
@@ -139,7 +160,7 @@ int run_recorded(const options& o, supervision& x) {
 }
 
 int run(const options& o) {
-  detach();
+  detach(o.attached);
   be_the_last_to_go();
   supervision x;
   x.signals = open_signals();
@@ -151,6 +172,8 @@ int run(const options& o) {
   x.limit = &limit;
   x.stop_signal = o.stop_signal;
   x.cgroups = o.cgroups;
+  if (o.attached != attachment::none)
+    return run_attached(o, x);
   return o.directory != nullptr ? run_recorded(o, x) : run_plain(o, x);
 }
 
