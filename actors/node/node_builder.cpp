@@ -343,7 +343,7 @@ void node_builder::start_execs() {
   with.context = parts_.context;
   with.node = parts_.config.name;
   with.supervisor = parts_.services->supervisor;
-  with.open = make_exec_opener(runtime_, *parts_.edges->io);
+  with.open = make_exec_opener(parts_.config, runtime_, *parts_.edges->io);
   parts_.services->execs = start_blocking(exec_host, with);
 }
 

@@ -57,7 +57,8 @@ environment_writer make_environment_writer(const node_config& config,
                                            const chosen_runtime& chosen);
 
 /// Begins commands beside the instances of that runtime.
-exec_opener make_exec_opener(const chosen_runtime& chosen, const io_thread& io);
+exec_opener make_exec_opener(const node_config& config,
+                             const chosen_runtime& chosen, const io_thread& io);
 
 /// Where builds lie that come from other nodes.
 std::filesystem::path builds_folder(const node_config& config);

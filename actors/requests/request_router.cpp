@@ -211,9 +211,9 @@ void note_sender(const route_request& request, const std::string& type,
     return;
   constexpr std::string_view node = "node ";
   const bool by_node = request.from.compare(0, node.size(), node) == 0;
-  const auto told = by_node ? document.value("from", "") : std::string{};
+  const auto named = by_node ? document.value("from", "") : std::string{};
   document["from"] =
-      valid_utf8(told.empty() ? request.from : told + " at " + request.from)
+      valid_utf8(named.empty() ? request.from : named + " at " + request.from)
           .substr(0, most_sender_bytes);
 }
 

@@ -201,7 +201,7 @@ bool usage() {
   ::dprintf(
       2,
       "usage: roscell-instance-shim {--dir DIR --log-bytes N | --exit FILE | "
-      "--attached pipes|terminal} "
+      "--attached pipes|terminal [--lifeline SOCKET]} "
       "[--fence FILE] [--cwd DIR] [--stop-signal S] [--cgroup FOLDER]... "
       "[--scheduling POLICY:PRIORITY:NICE] [--user UID:GID[,GROUP...]] "
       "[--capabilities HEX] -- COMMAND [ARGS...]\n"
@@ -228,6 +228,8 @@ constexpr option all_options[] = {
      [](const char* x, options& to) { return (to.exit_file = x) != nullptr; }},
     {"--attached", [](const char* x,
                       options& to) { return read_attachment(x, to.attached); }},
+    {"--lifeline",
+     [](const char* x, options& to) { return (to.lifeline = x) != nullptr; }},
     {"--log-bytes",
      [](const char* x, options& to) { return read_bytes(x, to.log_bytes); }},
     {"--stop-signal",

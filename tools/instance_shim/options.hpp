@@ -53,8 +53,7 @@ struct cgroup_list {
 enum class attachment { none, pipes, terminal };
 
 /// Of a shim with such a command: all of it ends when the other end is closed.
-/// In a container there is none.
-constexpr int lifeline = 3;
+constexpr int lifeline_place = 3;
 
 /// The command line of the shim.
 struct options {
@@ -67,10 +66,12 @@ struct options {
   const char* working_dir = nullptr; ///< of the command; null: the shim's own
   int stop_signal = 15;              ///< what asks the command to end
   attachment attached = attachment::none; ///< Then there are no records.
-  cgroup_list cgroups;                    ///< That the command is put into.
-  scheduling request;                     ///< Of the command.
-  identity who;                           ///< that the command is to be
-  char** command = nullptr;               ///< the command and its arguments
+  /// Unix socket that is the lifeline; null: descriptor 3 is.
+  const char* lifeline = nullptr;
+  cgroup_list cgroups;      ///< That the command is put into.
+  scheduling request;       ///< Of the command.
+  identity who;             ///< that the command is to be
+  char** command = nullptr; ///< the command and its arguments
 };
 
 /// Returns false, after a line on stderr, when the arguments make no sense.

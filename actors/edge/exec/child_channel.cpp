@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +29,9 @@ using error = boost::system::error_code;
 
 /// What a terminal takes for the end of its input, at the beginning of a line.
 constexpr const char* end_of_input = "\x04";
+
+/// What an exit code has above the number of the signal.
+constexpr int signal_base = 128;
 
 /// One output of the program.
 struct read_end {
@@ -66,8 +70,10 @@ public:
     open(outputs_[1], program_.errors);
     await(child_, [](child_channel& x) { x.on_child_ended(); });
     if (instance_.is_open())
-      await(instance_,
-            [](child_channel& x) { x.end("the instance has ended"); });
+      await(instance_, [](child_channel& x) {
+        x.end("the instance has ended");
+        x.finish_if_ended();
+      });
     call(calls_.on_started);
     read_on(false);
     read_on(true);
@@ -184,15 +190,26 @@ private:
     finish_if_ended();
   }
 
-  /// Reads that have found nothing for so long find nothing any more.
+  /// Reads that have found nothing for so long find nothing any more, and of
+  /// what was ended nobody wants the rest.
   void stop_waiting() {
     for (auto& x : outputs_)
-      if (x.reading)
+      if (x.reading) {
         x.fd.cancel();
+      } else if (!reason_.empty()) {
+        x.open = false;
+        close(x.fd);
+      }
+    is_patient_ = false;
+    finish_if_ended();
   }
 
   void finish_if_ended() {
     if (!ended_ || outputs_[0].open || outputs_[1].open)
+      return;
+    // What ends an instance kills the command first, where they share a cgroup.
+    if (exit_code_ == signal_base + SIGKILL && reason_.empty()
+        && instance_.is_open() && is_patient_)
       return;
     const auto on_end = calls_.on_end;
     const auto code = exit_code_;
@@ -243,7 +260,8 @@ private:
   std::string writing_;
   std::string reason_;
   int exit_code_ = 0;
-  bool ended_ = false; ///< The program has.
+  bool ended_ = false;     ///< The program has.
+  bool is_patient_ = true; ///< Until a moment after that.
   bool over_ = false;
 };
 

@@ -24,6 +24,9 @@ constexpr milliseconds wait{5000};
 constexpr seconds lease{15};
 /// For an engine to begin a command, or to say how it has ended.
 constexpr seconds engine{10};
+/// An engine may take a command for running for a moment after its end.
+constexpr milliseconds look_again{50};
+constexpr int most_looks = 40;
 /// After the end of a program, for streams that something else still holds.
 constexpr milliseconds last_output{500};
 

@@ -81,29 +81,29 @@ exec_order order_of(const exec_request& request, const instance_row& row,
 /// What the io thread tells of the command becomes messages.
 exec_callbacks calls_for(exec_host_pointer self, const std::string& session) {
   const auto me = caf::actor_cast<exec_host_actor>(self);
-  const auto tell = [me, session](exec_progress x) {
+  const auto report = [me, session](exec_progress x) {
     x.session = session;
     caf::anon_send(me, std::move(x));
   };
   exec_callbacks result;
-  result.on_started = [tell] { tell({}); };
-  result.on_output = [tell](bool of_errors, std::string bytes) {
+  result.on_started = [report] { report({}); };
+  result.on_output = [report](bool of_errors, std::string bytes) {
     exec_progress x;
     x.bytes = std::move(bytes);
     x.of_errors = of_errors;
-    tell(std::move(x));
+    report(std::move(x));
   };
-  result.on_input_taken = [tell] {
+  result.on_input_taken = [report] {
     exec_progress x;
     x.input_taken = true;
-    tell(std::move(x));
+    report(std::move(x));
   };
-  result.on_end = [tell](int exit_code, std::string reason) {
+  result.on_end = [report](int exit_code, std::string reason) {
     exec_progress x;
     x.ended = true;
     x.exit_code = exit_code;
     x.reason = std::move(reason);
-    tell(std::move(x));
+    report(std::move(x));
   };
   return result;
 }

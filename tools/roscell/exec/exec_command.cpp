@@ -186,8 +186,8 @@ void add_exec_command(CLI::App& app, action& chosen) {
                    "Id of the instance or its beginning, or TASK/STEP")
       ->required();
   command
-      ->add_option("COMMAND", options->command,
-                   "The program and its arguments, after --")
+      ->add_option("PROGRAM", options->command,
+                   "What to run, with its arguments, after --")
       ->required()
       ->option_text("...");
   command->add_flag("-T,--no-terminal", options->no_terminal,
