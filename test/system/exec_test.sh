@@ -80,14 +80,16 @@ test_a_command_at_a_terminal_has_it() {
   await_screen '^bash.*[$#]$'
   type_keys 'tty -s && stty size' Enter
   await_screen '^24 80$'
+  type_keys "bash -c \"trap 'clear; stty size' WINCH; while sleep 0.1; \
+do :; done\"" Enter
   tmux resize-window -t it -x 100 -y 30
-  type_keys 'clear; stty size' Enter
   await_screen '^30 100$'
-  type_keys "clear; sleep $long_s" Enter
+  tmux resize-window -t it -x 80 -y 24
+  await_screen '^24 80$'
+  type_keys C-c "sleep $long_s" Enter
   await_screen "sleep $long_s"
   type_keys C-c 'echo it is $?' Enter
   await_screen '^it is 130$'
-  tmux resize-window -t it -x 80 -y 24
   type_keys 'exit 5' Enter
   ended_with 5
 }

@@ -266,11 +266,33 @@ private:
         reason_ = "the instance has ended";
       return conclude(killed);
     }
-    if (!flag_at(exec, "Running"))
-      return conclude(static_cast<int>(number_at(exec, "ExitCode", killed)));
-    if (++looks_ > limits::exec::most_looks)
-      return fail("the engine broke its stream");
-    after(limits::exec::look_again, [](auto& self) { self.ask_for_end(); });
+    if (flag_at(exec, "Running")) {
+      if (++looks_ > limits::exec::most_looks)
+        return fail("the engine broke its stream");
+      return after(limits::exec::look_again,
+                   [](auto& self) { self.ask_for_end(); });
+    }
+    const auto code = static_cast<int>(number_at(exec, "ExitCode", killed));
+    if (code != killed || !reason_.empty())
+      return conclude(code);
+    looks_ = 0;
+    look_after_instance();
+  }
+
+  /// What ends a container ends its commands first.
+  void look_after_instance() {
+    ask("GET", "/containers/" + what_.order.container + "/json", {},
+        [](auto& self, const engine_reply& reply) {
+          const auto container = json::parse(reply.body, nullptr, false);
+          const bool runs =
+              reply.ok() && flag_at(object_at(container, "State"), "Running");
+          if (!runs)
+            self.reason_ = "the instance has ended";
+          if (!runs || ++self.looks_ > limits::exec::most_instance_looks)
+            return self.conclude(killed);
+          self.after(limits::exec::look_again,
+                     [](auto& x) { x.look_after_instance(); });
+        });
   }
 
   template <class Function>

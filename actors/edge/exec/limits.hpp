@@ -27,6 +27,7 @@ constexpr seconds engine{10};
 /// An engine may take a command for running for a moment after its end.
 constexpr milliseconds look_again{50};
 constexpr int most_looks = 40;
+constexpr int most_instance_looks = 10;
 /// After the end of a program, for streams that something else still holds.
 constexpr milliseconds last_output{500};
 
