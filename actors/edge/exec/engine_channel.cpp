@@ -256,10 +256,10 @@ private:
   void ask_for_end() {
     timer_.cancel();
     ask("GET", "/exec/" + id_ + "/json", {},
-        [](auto& self, const engine_reply& x) { self.on_end_told(x); });
+        [](auto& self, const engine_reply& x) { self.on_end_reported(x); });
   }
 
-  void on_end_told(const engine_reply& reply) {
+  void on_end_reported(const engine_reply& reply) {
     const auto exec = json::parse(reply.body, nullptr, false);
     if (!reply.ok() || !exec.is_object()) {
       if (reason_.empty())

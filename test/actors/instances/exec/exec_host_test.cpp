@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// A command that does what the test says, and notes what it is told.
+/// A command that does what the test says, and notes what it is asked.
 struct fake_command : exec_channel {
   void write(std::string bytes, bool last) override {
     given += bytes + (last ? "|" : "");
@@ -55,7 +55,7 @@ struct exec_bench : virtual_time {
       orders.push_back(order);
       if (!refusal.empty())
         return edge_error{error_code::engine_failed, refusal, ""};
-      told = std::move(calls);
+      callbacks = std::move(calls);
       command = std::make_shared<fake_command>();
       return std::shared_ptr<exec_channel>{command};
     };
@@ -106,7 +106,7 @@ struct exec_bench : virtual_time {
   /// A command that runs; its session.
   std::string run() {
     auto answer = begin(on("i"));
-    told.on_started();
+    callbacks.on_started();
     settle();
     return answer->value()->session;
   }
@@ -144,7 +144,7 @@ struct exec_bench : virtual_time {
   instance_row row;
   std::string refusal;
   std::vector<exec_order> orders;
-  exec_callbacks told;
+  exec_callbacks callbacks;
   std::shared_ptr<fake_command> command;
   std::vector<record_event> published;
   exec_host_actor host;
@@ -152,7 +152,7 @@ struct exec_bench : virtual_time {
 
 } // namespace
 
-TEST_CASE("a command begins beside an instance, and that is told") {
+TEST_CASE("a command begins beside an instance, and an event says so") {
   exec_bench b;
   auto what = b.on("i");
   what.terminal = true;
@@ -160,7 +160,7 @@ TEST_CASE("a command begins beside an instance, and that is told") {
   what.rows = 24;
   const auto answer = b.begin(what);
   CHECK_FALSE(answer->has_value());
-  b.told.on_started();
+  b.callbacks.on_started();
   b.settle();
   REQUIRE(answer->has_value());
   REQUIRE(b.orders.size() == 1);
@@ -200,7 +200,7 @@ TEST_CASE("what cannot be run is refused, with the place and a remedy") {
 TEST_CASE("a command that its engine does not begin is an error") {
   exec_bench b;
   const auto answer = b.begin(b.on("i"));
-  b.told.on_end(137, "the engine refuses it");
+  b.callbacks.on_end(137, "the engine refuses it");
   b.settle();
   CHECK(b.why(answer).message
         == "the command cannot be run: the engine refuses it");
@@ -218,7 +218,7 @@ TEST_CASE("output answers whoever waits for it") {
   const auto session = b.run();
   const auto answer = b.output(session, 0);
   CHECK_FALSE(answer->has_value());
-  b.told.on_output(true, "hot");
+  b.callbacks.on_output(true, "hot");
   b.settle();
   REQUIRE(answer->has_value());
   CHECK(answer->value()->bytes == to_base64("hot"));
@@ -244,10 +244,10 @@ TEST_CASE("a command whose output nobody takes is not read on") {
   exec_bench b;
   const auto session = b.run();
   const std::string part(limits::exec::waiting_bytes / 2, 'x');
-  b.told.on_output(false, part);
+  b.callbacks.on_output(false, part);
   b.settle();
   CHECK(b.command->reads == "o");
-  b.told.on_output(false, part);
+  b.callbacks.on_output(false, part);
   b.settle();
   CHECK(b.command->reads == "o");
   const auto first = b.output(session, 0);
@@ -262,7 +262,7 @@ TEST_CASE("input waits until the command has taken what came before") {
   const auto second = b.input(session, 3, "two");
   CHECK_FALSE(second->has_value());
   CHECK(b.command->given == "one");
-  b.told.on_input_taken();
+  b.callbacks.on_input_taken();
   b.settle();
   CHECK(second->value()->next_offset == 6);
   CHECK(b.command->given == "onetwo");
@@ -279,7 +279,7 @@ TEST_CASE("the end of input comes after what was given before") {
   b.input(session, 0, "one");
   CHECK(b.input(session, 3, "", true)->value()->next_offset == 3);
   CHECK(b.command->given == "one");
-  b.told.on_input_taken();
+  b.callbacks.on_input_taken();
   b.settle();
   CHECK(b.command->given == "one|");
 }
@@ -287,8 +287,8 @@ TEST_CASE("the end of input comes after what was given before") {
 TEST_CASE("a command ends with its last output and its exit code") {
   exec_bench b;
   const auto session = b.run();
-  b.told.on_output(false, "last");
-  b.told.on_end(3, "");
+  b.callbacks.on_output(false, "last");
+  b.callbacks.on_end(3, "");
   b.settle();
   const auto answer = b.output(session, 0);
   REQUIRE(answer->has_value());
@@ -310,7 +310,7 @@ TEST_CASE("a command whose operator is gone is ended and forgotten") {
   b.advance(100ms);
   REQUIRE(b.command->ends.size() == 1);
   CHECK(b.command->ends[0] == "nobody has asked for its output for 15 s");
-  b.told.on_end(137, b.command->ends[0]);
+  b.callbacks.on_end(137, b.command->ends[0]);
   b.advance(limits::exec::lease);
   CHECK(b.why(b.output(session, 0)).code == error_code::unknown_task);
 }
@@ -350,7 +350,7 @@ TEST_CASE("a node without commands has no timer for them") {
   exec_bench b;
   CHECK(b.pass(1h) == 0);
   const auto session = b.run();
-  b.told.on_end(0, "");
+  b.callbacks.on_end(0, "");
   b.settle();
   b.output(session, 0);
   b.pass(limits::exec::lease);
