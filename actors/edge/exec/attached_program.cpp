@@ -77,6 +77,13 @@ bool make_pipes(both_ends& x) {
          && make_pipe(ours.errors, theirs.errors, ours.errors);
 }
 
+/// As far as we may: without it the program can use them all the same.
+void give_to(uid_t user, const program_ends& ends) {
+  for (const auto* end : {&ends.input, &ends.output, &ends.errors})
+    [[maybe_unused]] const int ignored =
+        ::fchown(end->get(), user, static_cast<gid_t>(-1));
+}
+
 std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   std::vector<char*> result;
   result.reserve(texts.size() + 1);
@@ -123,13 +130,16 @@ int run_with(const program& what, const program_ends& ends, pid_t& pid) {
 } // namespace
 
 edge_result<attached_program>
-spawn_attached(const program& what, const std::optional<terminal_size>& size) {
+spawn_attached(const program& what, const std::optional<terminal_size>& size,
+               std::optional<uid_t> user) {
   both_ends x;
   if (!(size ? make_terminal(x, *size) : make_pipes(x)))
     return not_attached(size ? "make a terminal" : "make pipes");
   // The program's end of the lifeline is read, and nothing is ever written.
   if (!make_pipe(x.theirs.lifeline, x.ours.lifeline, x.ours.lifeline))
     return not_attached("make pipes");
+  if (user)
+    give_to(*user, x.theirs);
   pid_t pid = -1;
   errno = run_with(what, x.theirs, pid);
   if (errno != 0)

@@ -5,6 +5,8 @@
 #include "actors/edge/io/unique_fd.hpp"
 #include "actors/edge/process/process_spawner.hpp"
 
+#include <sys/types.h>
+
 #include <optional>
 
 namespace roscell {
@@ -21,9 +23,12 @@ struct attached_program {
 
 /// Starts it with these streams and no other descriptor of ours, with a
 /// terminal of that size or with pipes. Does not wait for what becomes of it.
+/// @param user whose its streams are, so that it can open them by their names;
+///   none: this user's.
 /// Errors: engine_failed.
 edge_result<attached_program>
-spawn_attached(const program& what, const std::optional<terminal_size>& size);
+spawn_attached(const program& what, const std::optional<terminal_size>& size,
+               std::optional<uid_t> user = std::nullopt);
 
 /// Gives the terminal that `fd` is an end of another size.
 void resize_terminal(int fd, terminal_size size);

@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -39,6 +42,19 @@ std::vector<std::string> texts_in(const std::string& path) {
     at = end + 1;
   }
   return result;
+}
+
+/// Who the program of an instance is, where it is another user than its node.
+std::optional<uid_t> user_in(const std::vector<std::string>& words) {
+  const auto end = std::find(words.begin(), words.end(), "--");
+  const auto option = std::find(words.begin(), end, "--user");
+  if (option == end || option + 1 == end)
+    return std::nullopt;
+  const auto& text = *(option + 1);
+  uid_t result = 0;
+  const auto read =
+      std::from_chars(text.data(), text.data() + text.size(), result);
+  return read.ec == std::errc{} ? std::optional{result} : std::nullopt;
 }
 
 std::map<std::string, std::string>
@@ -88,7 +104,8 @@ exec_opener process_opener(std::shared_ptr<io_core> core,
           return not_running(order);
         auto program = spawn_attached(
             {shim, beside(words, order), environment_beside(settings, order)},
-            order.terminal ? std::optional{order.size} : std::nullopt);
+            order.terminal ? std::optional{order.size} : std::nullopt,
+            user_in(words));
         if (const auto* why = std::get_if<edge_error>(&program))
           return *why;
         return open_child_channel(
