@@ -8,6 +8,8 @@ start_alone() {
   use_skills
   start_node head --coordinator --cell line --interface lo --label place=head \
     "$@"
+  echo_task t > "$scratch/task.json"
+  chmod -R a+rwX "$scratch/data"
   run_on head t
   instance=$(jq -r '.instances[0].instance' "$scratch/reply.json")
   program=$(readlink "$scratch/head/instances/$instance/pid" | cut -d' ' -f3)
@@ -42,6 +44,16 @@ test_a_command_runs_as_its_instance_does() {
       | sort)"
   commands_are_told
   goes_on t after
+}
+
+test_a_command_is_the_user_that_its_skill_is() {
+  chmod 0755 "$scratch"
+  start_alone --grant echo=user:nobody
+  expect "who it is" "$(say id -u)" 65534
+  expect "what it may" "$(say grep CapEff /proc/self/status)" \
+    "$(grep CapEff "/proc/$program/status")"
+  expect "a stream by its name" \
+    "$(say sh -c 'echo here > /dev/stderr' 2>&1)" here
 }
 
 test_what_goes_through_a_command_comes_back() {

@@ -5,12 +5,9 @@
 #include "actors/edge/exec/channel_handle.hpp"
 #include "actors/edge/exec/engine_frames.hpp"
 #include "actors/edge/exec/limits.hpp"
-#include "actors/edge/io/sockets.hpp"
+#include "actors/edge/exec/upgraded_connection.hpp"
 
-#include <boost/asio/buffer.hpp>
-#include <boost/asio/local/stream_protocol.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/asio/write.hpp>
 
 #include <algorithm>
 #include <array>
@@ -60,7 +57,7 @@ public:
                  exec_callbacks calls)
       : core_(std::move(core)), what_(std::move(what)),
         calls_(std::move(calls)), client_(core_, what_.socket, what_.api),
-        stream_(core_->context()), timer_(core_->context()) {
+        timer_(core_->context()) {
     // nop
   }
 
@@ -75,11 +72,12 @@ public:
       return;
     if (last && what_.order.terminal)
       bytes += "\x04";
-    writing_ = std::move(bytes);
-    asio::async_write(stream_, asio::buffer(writing_),
-                      [self = shared_from_this(), last](error ec, size_t) {
-                        self->on_written(ec, last);
-                      });
+    const bool ends = last && !what_.order.terminal;
+    stream_->write(std::move(bytes), [this, ends](bool good) {
+      if (ends || !good)
+        stream_->end_input();
+      call(calls_.on_input_taken);
+    });
   }
 
   /// An engine that cannot do this has told nobody of the size: no harm.
@@ -94,8 +92,8 @@ public:
 
   void read_on(bool of_errors) override {
     owed_[of_errors ? 1 : 0] = false;
-    if (!over_ && streams_ && !owed_[0] && !owed_[1])
-      read();
+    if (!over_ && stream_ && !owed_[0] && !owed_[1])
+      stream_->read();
   }
 
   /// The shim ends all that it has started.
@@ -161,70 +159,38 @@ private:
       return fail(engine_refusal("the engine refuses it", reply).message);
     after(limits::exec::engine,
           [](auto& self) { self.fail("the engine did not begin it in time"); });
-    open_unix(stream_);
-    stream_.async_connect(
-        asio::local::stream_protocol::endpoint{what_.socket},
-        [self = shared_from_this()](error ec) { self->on_connected(ec); });
+    const auto prefix = what_.api.empty() ? "" : "/v" + what_.api;
+    stream_ = std::make_shared<upgraded_connection>(core_, stream_calls());
+    stream_->open(
+        what_.socket, prefix + "/exec/" + id_ + "/start",
+        json{{"Detach", false}, {"Tty", what_.order.terminal}}.dump());
   }
 
-  void on_connected(error ec) {
+  /// They are called as long as this lives: it closes the stream.
+  upgraded_connection::callbacks stream_calls() {
+    upgraded_connection::callbacks result;
+    result.on_open = [this] {
+      timer_.cancel();
+      call(calls_.on_started);
+      resize(what_.order.size);
+    };
+    result.on_bytes = [this](std::string_view bytes) { pass_on(bytes); };
+    result.on_end = [this](int status, std::string text) {
+      on_stream_end(status, std::move(text));
+    };
+    return result;
+  }
+
+  void on_stream_end(int status, std::string text) {
     if (over_)
       return;
-    if (ec)
-      return fail("the engine cannot be reached: " + ec.message());
-    const auto body =
-        json{{"Detach", false}, {"Tty", what_.order.terminal}}.dump();
-    writing_ = "POST " + (what_.api.empty() ? "" : "/v" + what_.api) + "/exec/"
-               + id_
-               + "/start HTTP/1.1\r\nHost: localhost\r\nUser-Agent: roscell\r\n"
-                 "Connection: Upgrade\r\nUpgrade: tcp\r\n"
-                 "Content-Type: application/json\r\nContent-Length: "
-               + std::to_string(body.size()) + "\r\n\r\n" + body;
-    asio::async_write(stream_, asio::buffer(writing_),
-                      [self = shared_from_this()](error, size_t) {
-                        // What went wrong is seen by reading.
-                      });
-    read();
-  }
-
-  void read() {
-    if (std::exchange(reading_, true))
-      return;
-    buffer_.resize(exec_part_bytes);
-    stream_.async_read_some(asio::buffer(buffer_),
-                            [self = shared_from_this()](error ec, size_t n) {
-                              self->reading_ = false;
-                              if (!self->over_)
-                                self->on_read(ec, n);
-                            });
-  }
-
-  void on_read(error ec, size_t size) {
-    const std::string_view bytes{buffer_.data(), size};
-    if (streams_ && ec)
-      return ask_for_end();
-    if (streams_)
-      return pass_on(bytes);
-    head_ += bytes;
-    const auto head = read_answer_head(head_);
-    if (head.bytes == 0 && !ec && head_.size() < limits::engine::header_bytes)
-      return read();
-    constexpr int upgraded = 101;
-    constexpr int ok = 200;
-    if (head.status != upgraded && head.status != ok)
-      return fail(head.bytes == 0 ? "the engine's answer cannot be read"
-                                  : refusal(head));
-    streams_ = true;
-    timer_.cancel();
-    call(calls_.on_started);
-    resize(what_.order.size);
-    pass_on(std::string_view{head_}.substr(head.bytes));
-  }
-
-  std::string refusal(const engine_answer_head& head) const {
-    return engine_refusal("the engine refuses it",
-                          {head.status, head_.substr(head.bytes)})
-        .message;
+    if (status != 0)
+      return fail(
+          engine_refusal("the engine refuses it", {status, std::move(text)})
+              .message);
+    if (!text.empty())
+      return fail("the engine cannot be reached: " + text);
+    ask_for_end();
   }
 
   void pass_on(std::string_view bytes) {
@@ -236,20 +202,10 @@ private:
     for (const bool of_errors : {false, true})
       owed_[of_errors ? 1 : 0] = !outputs[of_errors ? 1 : 0].empty();
     if (!owed_[0] && !owed_[1])
-      return read();
+      return stream_->read();
     for (const bool of_errors : {false, true})
       if (auto& x = outputs[of_errors ? 1 : 0]; !x.empty())
         call(calls_.on_output, of_errors, std::move(x));
-  }
-
-  void on_written(error ec, bool last) {
-    if (over_)
-      return;
-    writing_.clear();
-    error ignored;
-    if ((ec || last) && !what_.order.terminal)
-      stream_.shutdown(stream_socket::shutdown_send, ignored);
-    call(calls_.on_input_taken);
   }
 
   /// One that has just ended may run still, as its engine sees it.
@@ -332,7 +288,8 @@ private:
     const auto self = shared_from_this();
     what_.lifeline.cut();
     timer_.cancel();
-    close_now(stream_);
+    if (stream_)
+      stream_->close();
     core_->release(this);
   }
 
@@ -340,17 +297,12 @@ private:
   engine_command what_;
   exec_callbacks calls_;
   engine_client client_;
-  stream_socket stream_;
+  std::shared_ptr<upgraded_connection> stream_;
   asio::steady_timer timer_;
   engine_frames frames_;
-  std::vector<char> buffer_;
-  std::string id_;   ///< Of the command, as the engine calls it.
-  std::string head_; ///< Of the engine's answer, and what came with it.
-  std::string writing_;
+  std::string id_; ///< Of the command, as the engine calls it.
   std::string reason_;
   bool owed_[2] = {false, false}; ///< Outputs that are to be read on first.
-  bool streams_ = false;          ///< The engine has begun it.
-  bool reading_ = false;
   bool over_ = false;
   int looks_ = 0;
 };
