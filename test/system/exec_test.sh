@@ -92,8 +92,9 @@ test_a_command_at_a_terminal_has_it() {
   await_screen '^bash.*[$#]$'
   type_keys 'tty -s && stty size' Enter
   await_screen '^24 80$'
-  type_keys "bash -c \"trap 'clear; stty size' WINCH; while sleep 0.1; \
-do :; done\"" Enter
+  type_keys "bash -c \"trap 'clear; stty size' WINCH; echo set; \
+while sleep 0.1; do :; done\"" Enter
+  await_screen '^set$'
   tmux resize-window -t it -x 100 -y 30
   await_screen '^30 100$'
   tmux resize-window -t it -x 80 -y 24
