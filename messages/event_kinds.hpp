@@ -284,6 +284,14 @@ inline constexpr event_kind instance_unhealthy{
 inline constexpr event_kind instance_recovered{
     "instance_recovered", "instance", "its node, or the coordinator",
     "Its streams are as they should be again."};
+inline constexpr event_kind exec_begun{
+    "exec_begun", "instance", "its node",
+    "Somebody runs a command beside it: the `session`, who it comes `from`, "
+    "the `program` without its arguments, and whether it has a `terminal`."};
+inline constexpr event_kind exec_ended{
+    "exec_ended", "instance", "its node",
+    "That command has ended: the `session`, its `exit_code`, for how long it "
+    "ran in `took_ms`, and where it was ended the `reason`."};
 inline constexpr event_kind skill_instance_died{
     "skill_instance_died", "instance", "its node",
     "The actor that supervises it has ended by an error, for the time in "

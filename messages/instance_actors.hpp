@@ -155,6 +155,21 @@ using container_supervisor_actor = introspected_actor::extend<
     // INTERNAL: from a skill instance.
     caf::reacts_to<instance_changed>>;
 
+/// The EXEC HOST: commands of operators beside the instances of this node.
+using exec_host_actor = introspected_actor::extend<
+    // Replies once it runs. Errors: unknown_task (no such instance), conflict
+    // (it does not run, or is an actor; too many commands at once),
+    // schema_violation (the command is too long), engine_failed (it cannot be
+    // started).
+    caf::replies_to<exec_request>::with<exec_started>,
+    // Errors of both: unknown_task (no such command: it has ended), conflict
+    // (another offset than the one that comes next).
+    caf::replies_to<exec_input>::with<exec_input_taken>,
+    caf::replies_to<exec_output_query>::with<exec_output>,
+    caf::reacts_to<exec_progress>,
+    // INTERNAL: alarm number N is due.
+    caf::reacts_to<caf::tick_atom, uint64_t>>;
+
 /// The BUILD KEEPER: the builds on this node's disk. It blocks there.
 using build_keeper_actor = introspected_actor::extend<
     // Nothing happens to one that is here. Errors: schema_violation (the

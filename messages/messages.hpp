@@ -6,6 +6,7 @@
 #include "messages/build.hpp"
 #include "messages/cell.hpp"
 #include "messages/event.hpp"
+#include "messages/exec.hpp"
 #include "messages/failure.hpp"
 #include "messages/formation.hpp"
 #include "messages/image.hpp"

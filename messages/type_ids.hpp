@@ -257,6 +257,13 @@
   X(reach_settled)                                                             \
   X(examination_query)                                                         \
   X(examination)                                                               \
+  X(exec_request)                                                              \
+  X(exec_started)                                                              \
+  X(exec_input)                                                                \
+  X(exec_input_taken)                                                          \
+  X(exec_output_query)                                                         \
+  X(exec_output)                                                               \
+  X(exec_progress)                                                             \
   X(process_request)                                                           \
   X(request_processed)                                                         \
   X(use_settings)                                                              \

@@ -1,5 +1,6 @@
 #include "actors/core/answer_limits.hpp"
 
+#include "messages/exec.hpp"
 #include "messages/insight/examination.hpp"
 #include "messages/insight/node_cost.hpp"
 #include "messages/insight/reach.hpp"
@@ -13,12 +14,13 @@ namespace roscell {
 namespace {
 
 /// What a node answers about itself from what it knows,
-constexpr std::array<std::string_view, 4> queries{
-    node_query::type, actor_query::type, cost_query::type, reach_opening::type};
+constexpr std::array<std::string_view, 6> queries{
+    node_query::type,    actor_query::type, cost_query::type,
+    reach_opening::type, exec_input::type,  exec_output_query::type};
 
 /// and what it has to find out.
-constexpr std::array<std::string_view, 2> looks{reach_query::type,
-                                                examination_query::type};
+constexpr std::array<std::string_view, 3> looks{
+    reach_query::type, examination_query::type, exec_request::type};
 constexpr std::chrono::seconds look_limit{20};
 
 template <class Names>

@@ -79,6 +79,7 @@ void node_builder::build(running_node& result) {
   start_watching();
   start_measuring();
   start_prober();
+  start_execs();
   start_requests();
   result.actor = parts_.services->node;
   result.router = parts_.router;
@@ -335,6 +336,15 @@ void node_builder::start_prober() {
   with.domain_id = config.ros_domain_id;
   with.site = data_.site;
   parts_.services->prober = start(reach_prober, with);
+}
+
+void node_builder::start_execs() {
+  exec_host_config with;
+  with.context = parts_.context;
+  with.node = parts_.config.name;
+  with.supervisor = parts_.services->supervisor;
+  with.open = make_exec_opener(parts_.config, runtime_, *parts_.edges->io);
+  parts_.services->execs = start_blocking(exec_host, with);
 }
 
 void node_builder::start_requests() {

@@ -62,6 +62,7 @@ private:
   void start_builds();
   void start_measuring();
   void start_prober();
+  void start_execs();
   void start_requests();
 
   /// A primary node knows too little to show it.

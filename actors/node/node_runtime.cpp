@@ -7,6 +7,8 @@
 #include "actors/edge/host/own_process.hpp"
 #include "actors/edge/process/notify_socket.hpp"
 #include "actors/instances/engine/engine_runtime.hpp"
+#include "actors/instances/exec/engine_exec.hpp"
+#include "actors/instances/exec/process_exec.hpp"
 #include "actors/instances/process/process_runtime.hpp"
 #include "messages/failure.hpp"
 
@@ -149,6 +151,14 @@ environment_writer make_environment_writer(const node_config& config,
                             : notify_path(data_dir / "instances" / instance);
     return write_environment_update(environment_file_of(socket), variables);
   };
+}
+
+exec_opener make_exec_opener(const node_config& config,
+                             const chosen_runtime& chosen,
+                             const io_thread& io) {
+  if (!chosen.socket.empty())
+    return engine_opener(io.core(), chosen.socket, chosen.api, config.data_dir);
+  return process_opener(io.core(), chosen.shim);
 }
 
 fs::path builds_folder(const node_config& config) {

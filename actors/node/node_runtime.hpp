@@ -4,6 +4,7 @@
 #include "actors/edge/cgroup/cgroup_place.hpp"
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/process/notify_socket.hpp"
+#include "actors/instances/exec/exec_host.hpp"
 #include "actors/instances/skills/skill_catalogue.hpp"
 #include "actors/instances/skills/skill_places.hpp"
 #include "messages/messages.hpp"
@@ -54,6 +55,10 @@ runtime_factory(caf::actor_system& system, const actor_context& context,
 /// variables.
 environment_writer make_environment_writer(const node_config& config,
                                            const chosen_runtime& chosen);
+
+/// Begins commands beside the instances of that runtime.
+exec_opener make_exec_opener(const node_config& config,
+                             const chosen_runtime& chosen, const io_thread& io);
 
 /// Where builds lie that come from other nodes.
 std::filesystem::path builds_folder(const node_config& config);

@@ -8,6 +8,7 @@
 #include "messages/event_kinds.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
+#include "schemas/utf8.hpp"
 
 #include <chrono>
 #include <functional>
@@ -20,6 +21,9 @@ namespace {
 using request_router_self =
     request_router_actor::stateful_pointer<request_router_state>;
 using promise_type = caf::typed_response_promise<request_routed>;
+
+/// Longest text that says who has asked (schemas/exec_request.schema.json).
+constexpr size_t most_sender_bytes = 256;
 
 request_routed refusal(request_router_self self, const failure& why) {
   ++self->state.refused;
@@ -72,9 +76,12 @@ std::string subject_of(const json& document) {
   return "";
 }
 
-/// Queries change nothing and are many: they would drive out all others.
+/// Queries change nothing and are many: they would drive out all others. So
+/// would what is given to a command, whose beginning is told.
 bool is_remarkable(const std::string& type) {
   constexpr std::string_view query = "_query";
+  if (type == exec_input::type)
+    return false;
   return type.size() < query.size()
          || type.compare(type.size() - query.size(), query.size(), query) != 0;
 }
@@ -196,6 +203,20 @@ bool recall(request_router_self self, const std::string& type,
   return true;
 }
 
+/// Whoever runs a command is told by the node that he has asked, and by nobody
+/// whom he could make believe something: not by himself.
+void note_sender(const route_request& request, const std::string& type,
+                 json& document) {
+  if (type != exec_request::type || !request.only.empty())
+    return;
+  constexpr std::string_view node = "node ";
+  const bool by_node = request.from.compare(0, node.size(), node) == 0;
+  const auto named = by_node ? document.value("from", "") : std::string{};
+  document["from"] =
+      valid_utf8(named.empty() ? request.from : named + " at " + request.from)
+          .substr(0, most_sender_bytes);
+}
+
 /// What no handler of this node takes: on a member it is the coordinator's.
 caf::result<request_routed> pass_on(request_router_self self,
                                     const std::string& type,
@@ -264,6 +285,7 @@ caf::result<request_routed> route(request_router_self self,
                          "send it to /v1/requests"},
                         type);
   note_begin(self, request, type, document);
+  note_sender(request, type, document);
   if (is_for_others(*st.services, type, document))
     return pass_to_node(self, type, std::move(document));
   const auto* run = st.registry->find(type);

@@ -1,5 +1,6 @@
 #include "messages/codec/instantiate.hpp"
 #include "messages/event.hpp"
+#include "messages/exec.hpp"
 #include "messages/failure.hpp"
 #include "messages/insight/examination.hpp"
 #include "messages/insight/node_cost.hpp"
@@ -85,5 +86,12 @@ ROSCELL_CODEC(reach_report)
 ROSCELL_CODEC(examination_query)
 ROSCELL_CODEC(finding)
 ROSCELL_CODEC(examination)
+ROSCELL_CODEC(exec_request)
+ROSCELL_CODEC(exec_started)
+ROSCELL_CODEC(exec_input)
+ROSCELL_CODEC(exec_input_taken)
+ROSCELL_CODEC(exec_output_query)
+ROSCELL_CODEC(exec_output)
+ROSCELL_DESCRIBED(exec_progress)
 
 } // namespace roscell

@@ -54,7 +54,8 @@ bool has_least_form(const std::string& name) {
   return name != "task_request" && name != "task_plan_query"
          && name != "task_update" && name != "skill_descriptor"
          && name != "plan_document" && name != "cell_formation"
-         && name != "skill_added" && name != "skill_pulled";
+         && name != "skill_added" && name != "skill_pulled"
+         && name != "exec_request";
 }
 
 } // namespace

@@ -12,6 +12,8 @@ constexpr std::pair<std::string_view, std::string_view> forms[] = {
     {"address", "10.0.0.7:N"},
     {"on_boot", "stay"},
     {"log_excerpt.bytes", "bytesN"},
+    {"exec_input.bytes", "bytesN"},
+    {"exec_output.bytes", "bytesN"},
     {"discovery_server", "10.0.0.8:N"},
     {"node_description.coordinator", "10.0.0.9:N"},
     {"node_hello.coordinator", "10.0.0.9:N"},

@@ -4,6 +4,7 @@
 #include "messages/allocation_report.hpp"
 #include "messages/cell.hpp"
 #include "messages/event.hpp"
+#include "messages/exec.hpp"
 #include "messages/image.hpp"
 #include "messages/insight/examination.hpp"
 #include "messages/insight/node_cost.hpp"
@@ -110,6 +111,8 @@ std::vector<trial> message_trials() {
                task_revisions>(result);
   try_messages<image_request, image_offered, image_query, image_known,
                image_sharing, image_shared>(result);
+  try_messages<exec_request, exec_started, exec_input, exec_input_taken,
+               exec_output_query, exec_output>(result);
   try_messages<session_hello, session_challenge, session_proof,
                session_accepted>(result);
   result.push_back(try_part<skill_descriptor>("skill_descriptor"));

@@ -7,6 +7,7 @@
 #include <poll.h>
 #include <sched.h>
 #include <sys/inotify.h>
+#include <sys/ioctl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/signalfd.h>
@@ -121,8 +122,11 @@ namespace {
 constexpr int kill_rounds = 20;
 constexpr int kill_round_ms = 50;
 
+/// Who tells a person that a command cannot be run.
+const char* speaker = "shim";
+
 [[noreturn]] void fail(const char* what, const char* subject) {
-  ::dprintf(STDERR_FILENO, "shim: cannot %s '%s': %s\n", what, subject,
+  ::dprintf(STDERR_FILENO, "%s: cannot %s '%s': %s\n", speaker, what, subject,
             std::strerror(errno));
   ::_exit(127);
 }
@@ -141,17 +145,17 @@ constexpr int kill_round_ms = 50;
     const auto foreign = end != interpreter && end[-1] == '\r';
     if (foreign)
       end[-1] = '\0';
-    ::dprintf(STDERR_FILENO, "shim: cannot run '%s': its interpreter '%s'%s\n",
-              program, interpreter,
+    ::dprintf(STDERR_FILENO, "%s: cannot run '%s': its interpreter '%s'%s\n",
+              speaker, program, interpreter,
               foreign ? " has a CR behind it: its lines end as on Windows"
                       : " is not there");
     ::_exit(127);
   }
   if (why == ENOENT && size > 2) {
     ::dprintf(STDERR_FILENO,
-              "shim: cannot run '%s': what loads it is not there (`file` names "
+              "%s: cannot run '%s': what loads it is not there (`file` names "
               "it)\n",
-              program);
+              speaker, program);
     ::_exit(127);
   }
   errno = why;
@@ -193,13 +197,27 @@ void die_with(pid_t shim) {
     ::_exit(127);
 }
 
-[[noreturn]] void become(const options& o, pid_t shim, int output,
-                         bool inside) {
+/// A terminal is of one session, whose first process begins it.
+void take_streams(attachment attached) {
+  if (attached == attachment::terminal) {
+    ::setsid();
+    ::ioctl(STDIN_FILENO, TIOCSCTTY, 0);
+    return;
+  }
   ::setpgid(0, 0);
-  die_with(shim);
-  reset_signals();
+  if (attached == attachment::pipes)
+    return;
   auto null = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
   ::dup2(null, STDIN_FILENO);
+}
+
+[[noreturn]] void become(const options& o, pid_t shim, int output,
+                         bool inside) {
+  take_streams(o.attached);
+  die_with(shim);
+  reset_signals();
+  if (o.attached != attachment::none)
+    speaker = "roscell exec";
   // Without a log it has the shim's own.
   if (output >= 0) {
     ::dup2(output, STDOUT_FILENO);
@@ -239,8 +257,8 @@ pid_t start_child(const options& o, int output) {
   if (child == 0)
     become(o, shim, output, inside);
   // The group must exist before the first signal is passed on, whoever of the
-  // two runs first.
-  if (child > 0)
+  // two runs first. The leader of one could begin no session.
+  if (child > 0 && o.attached != attachment::terminal)
     ::setpgid(child, child);
   return child;
 }

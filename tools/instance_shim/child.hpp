@@ -24,9 +24,10 @@ bool take_scheduling(const scheduling& request);
 
 /// Starts the command in a process group of its own and in its cgroup, with the
 /// attributes of an ordinary program. It dies with the shim,
-/// reads from /dev/null, and writes to `output`, or where the shim does if that
-/// is negative. If it cannot be started, it writes the reason and ends with
-/// code 127. Returns the process id, or -1 with errno set.
+/// reads from /dev/null, unless somebody is attached to it, and writes to
+/// `output`, or where the shim does if that is negative. If it cannot be
+/// started, it writes the reason and ends with code 127. Returns the process
+/// id, or -1 with errno set.
 pid_t start_child(const options& o, int output);
 
 /// Reaps all children that have ended. Returns whether `child` was among

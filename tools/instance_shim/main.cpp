@@ -24,6 +24,12 @@
 /// With cgroups the command is put into them, and ends with all who are there.
 /// The shim stays outside: it is neither bounded nor ended along with them.
 ///
+/// A command that somebody is attached to has the shim's own standard streams,
+/// leaves no records, and ends with its lifeline: descriptor 3, or in a
+/// container a Unix socket, whose other end is with who has started the shim.
+/// It is put into cgroups, but ends without those who are there already: it
+/// runs beside an instance. The exit code is the command's.
+///
 /// Without a folder it is the first process of a container, whose engine keeps
 /// the log: the output is left alone, and the exit code is that of the command,
 /// 128 + n after signal n. How it ended goes into a file of the host as well.
@@ -36,8 +42,11 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -57,7 +66,7 @@ int complain(const char* what, const char* subject) {
 }
 
 /// Cuts the ties to the process that started the shim.
-void detach() {
+void detach(bool has_lifeline) {
   // Fails for the leader of a process group, which a node never starts.
   ::setsid();
   // A standard stream that is missing would be mistaken for the next file
@@ -65,7 +74,9 @@ void detach() {
   auto filled = 0;
   while (filled >= 0 && filled <= STDERR_FILENO)
     filled = ::open("/dev/null", O_RDWR);
-  ::close_range(3, ~0U, 0);
+  ::fcntl(lifeline_place, F_SETFD, FD_CLOEXEC);
+  const auto kept = has_lifeline ? 1 : 0;
+  ::close_range(static_cast<unsigned>(lifeline_place + kept), ~0U, 0);
   // Descendants that lose their parent become children of the shim, so that
   // none is left when the instance ends.
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
@@ -94,6 +105,41 @@ child_end end_of(const supervision& x) {
   return {x.wait_status, x.fenced, x.terminated, read_memory(x.cgroups)};
 }
 
+int code_of(const supervision& x) {
+  return WIFSIGNALED(x.wait_status) ? 128 + WTERMSIG(x.wait_status)
+                                    : WEXITSTATUS(x.wait_status);
+}
+
+/// Negative, with errno set, where nobody holds the other end.
+int open_lifeline(const char* path) {
+  if (path == nullptr)
+    return ::fcntl(lifeline_place, F_GETFD) < 0 ? -1 : lifeline_place;
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::strncpy(address.sun_path, path, sizeof(address.sun_path) - 1);
+  const auto result = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const auto* where = reinterpret_cast<const sockaddr*>(&address);
+  return result < 0 || ::connect(result, where, sizeof(address)) == 0 ? result
+                                                                      : -1;
+}
+
+/// Beside an instance, whose cgroups are not to be emptied.
+int run_attached(const options& o, supervision& x) {
+  x.cgroups = {};
+  x.lifeline = open_lifeline(o.lifeline);
+  if (x.lifeline < 0)
+    return complain("hold on to its",
+                    o.lifeline != nullptr ? o.lifeline : "lifeline");
+  // An engine has made the terminal the shim's: it is to be the command's.
+  if (o.attached == attachment::terminal)
+    ::ioctl(STDIN_FILENO, TIOCNOTTY);
+  x.child = start_child(o, -1);
+  if (x.child < 0)
+    return start_failed(o);
+  supervise(x);
+  return code_of(x);
+}
+
 /// The first process of a container.
 int run_plain(const options& o, supervision& x) {
   exit_record record{o.exit_file};
@@ -108,8 +154,7 @@ int run_plain(const options& o, supervision& x) {
   // Not each engine tells it: Podman 4.3 does not with cgroups of version 1.
   end.memory = read_own_memory();
   record.write(end, nullptr);
-  return WIFSIGNALED(x.wait_status) ? 128 + WTERMSIG(x.wait_status)
-                                    : WEXITSTATUS(x.wait_status);
+  return code_of(x);
 }
 
 int run_recorded(const options& o, supervision& x) {
@@ -139,7 +184,7 @@ int run_recorded(const options& o, supervision& x) {
 }
 
 int run(const options& o) {
-  detach();
+  detach(o.attached != attachment::none && o.lifeline == nullptr);
   be_the_last_to_go();
   supervision x;
   x.signals = open_signals();
@@ -151,6 +196,8 @@ int run(const options& o) {
   x.limit = &limit;
   x.stop_signal = o.stop_signal;
   x.cgroups = o.cgroups;
+  if (o.attached != attachment::none)
+    return run_attached(o, x);
   return o.directory != nullptr ? run_recorded(o, x) : run_plain(o, x);
 }
 

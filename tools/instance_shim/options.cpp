@@ -151,6 +151,12 @@ bool add_cgroup(const char* folder, cgroup_list& result) {
   return true;
 }
 
+bool read_attachment(const char* word, attachment& result) {
+  const auto terminal = std::strcmp(word, "terminal") == 0;
+  result = terminal ? attachment::terminal : attachment::pipes;
+  return terminal || std::strcmp(word, "pipes") == 0;
+}
+
 struct policy_word {
   const char* word;
   int policy;
@@ -193,12 +199,14 @@ bool read_scheduling(const char* text, scheduling& result) {
 
 bool usage() {
   ::dprintf(
-      2, "usage: roscell-instance-shim {--dir DIR --log-bytes N | --exit FILE} "
-         "[--fence FILE] [--cwd DIR] [--stop-signal S] [--cgroup FOLDER]... "
-         "[--scheduling POLICY:PRIORITY:NICE] [--user UID:GID[,GROUP...]] "
-         "[--capabilities HEX] -- COMMAND [ARGS...]\n"
-         "N is a whole number of at least 1024, S one from 1 to 31, POLICY is "
-         "other, batch, idle, fifo or rr.\n");
+      2,
+      "usage: roscell-instance-shim {--dir DIR --log-bytes N | --exit FILE | "
+      "--attached pipes|terminal [--lifeline SOCKET]} "
+      "[--fence FILE] [--cwd DIR] [--stop-signal S] [--cgroup FOLDER]... "
+      "[--scheduling POLICY:PRIORITY:NICE] [--user UID:GID[,GROUP...]] "
+      "[--capabilities HEX] -- COMMAND [ARGS...]\n"
+      "N is a whole number of at least 1024, S one from 1 to 31, POLICY is "
+      "other, batch, idle, fifo or rr.\n");
   return false;
 }
 
@@ -218,6 +226,10 @@ constexpr option all_options[] = {
      [](const char* x, options& to) { return (to.fence = x) != nullptr; }},
     {"--exit",
      [](const char* x, options& to) { return (to.exit_file = x) != nullptr; }},
+    {"--attached", [](const char* x,
+                      options& to) { return read_attachment(x, to.attached); }},
+    {"--lifeline",
+     [](const char* x, options& to) { return (to.lifeline = x) != nullptr; }},
     {"--log-bytes",
      [](const char* x, options& to) { return read_bytes(x, to.log_bytes); }},
     {"--stop-signal",
@@ -246,10 +258,11 @@ bool read_options(int argc, char** argv, options& result) {
     if (!take(argv[i], argv[i + 1], result))
       return usage();
   result.command = argv + i + 1;
+  const auto attached = result.attached != attachment::none;
   const auto logs = result.directory != nullptr && result.log_bytes > 0
-                    && result.exit_file == nullptr;
+                    && result.exit_file == nullptr && !attached;
   const auto only_records = result.directory == nullptr && result.log_bytes == 0
-                            && result.exit_file != nullptr;
+                            && (result.exit_file != nullptr) != attached;
   const auto has_command = i + 1 < argc && std::strcmp(argv[i], "--") == 0;
   return ((logs || only_records) && has_command) || usage();
 }

@@ -48,6 +48,13 @@ struct cgroup_list {
   int count = 0;
 };
 
+/// With what standard streams a command runs that somebody is attached to:
+/// with the shim's own, of which a terminal becomes its controlling one.
+enum class attachment { none, pipes, terminal };
+
+/// Of a shim with such a command: all of it ends when the other end is closed.
+constexpr int lifeline_place = 3;
+
 /// The command line of the shim.
 struct options {
   /// Where the records and the log go; null: nowhere, and the output stays the
@@ -58,10 +65,13 @@ struct options {
   const char* exit_file = nullptr; ///< takes the record where nothing else goes
   const char* working_dir = nullptr; ///< of the command; null: the shim's own
   int stop_signal = 15;              ///< what asks the command to end
-  cgroup_list cgroups;               ///< That the command is put into.
-  scheduling request;                ///< Of the command.
-  identity who;                      ///< that the command is to be
-  char** command = nullptr;          ///< the command and its arguments
+  attachment attached = attachment::none; ///< Then there are no records.
+  /// Unix socket that is the lifeline; null: descriptor 3 is.
+  const char* lifeline = nullptr;
+  cgroup_list cgroups;      ///< That the command is put into.
+  scheduling request;       ///< Of the command.
+  identity who;             ///< that the command is to be
+  char** command = nullptr; ///< the command and its arguments
 };
 
 /// Returns false, after a line on stderr, when the arguments make no sense.

@@ -184,6 +184,13 @@ void on_timer(supervision& x) {
   kill_all(x.cgroups);
 }
 
+/// Whoever was attached has gone.
+void on_lifeline(supervision& x) {
+  x.forced = true;
+  if (!x.ended)
+    kill_all(x.cgroups);
+}
+
 bool is_over(const supervision& x) {
   return x.ended && !(is_patient(x) && has_children());
 }
@@ -191,9 +198,10 @@ bool is_over(const supervision& x) {
 void await_end(supervision& x) {
   pollfd waited[] = {{x.signals, POLLIN, 0},
                      {x.output, POLLIN, 0},
-                     {x.limit->timer(), POLLIN, 0}};
+                     {x.limit->timer(), POLLIN, 0},
+                     {x.lifeline, POLLIN, 0}};
   while (!is_over(x)) {
-    if (::poll(waited, 3, -1) < 1)
+    if (::poll(waited, 4, -1) < 1)
       continue; // Interrupted.
     if (waited[2].revents != 0) {
       on_timer(x);
@@ -205,6 +213,10 @@ void await_end(supervision& x) {
       }
       // A moment that has passed stays so.
       waited[2].fd = x.fenced ? -1 : waited[2].fd;
+    }
+    if (waited[3].revents != 0) {
+      on_lifeline(x);
+      waited[3].fd = -1;
     }
     if (waited[0].revents != 0)
       on_signal(x);

@@ -51,6 +51,7 @@ struct supervision {
   int stop_signal = 15; ///< What asks the command to end.
   int output = -1;      ///< Of the command, not blocking; negative: not ours.
   log_files* log = nullptr; ///< Takes the output; null: it is not ours.
+  int lifeline = -1; ///< All are killed when its end is seen; negative: none.
   fence* limit = nullptr;
   cgroup_list cgroups;     ///< Of the command.
   bool ended = false;      ///< The child has.

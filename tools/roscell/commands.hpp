@@ -72,6 +72,7 @@ void add_graph_command(CLI::App& app, action& chosen);
 void add_describe_command(CLI::App& app, action& chosen);
 void add_events_command(CLI::App& app, action& chosen);
 void add_logs_command(CLI::App& app, action& chosen);
+void add_exec_command(CLI::App& app, action& chosen);
 void add_shell_command(CLI::App& app, action& chosen);
 void add_completion_command(CLI::App& app, action& chosen);
 

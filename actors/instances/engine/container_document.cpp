@@ -19,8 +19,7 @@ namespace {
 
 constexpr int64_t mib = 1024 * 1024;
 
-/// Where a container has what supervises it.
-constexpr const char* shim_inside = "/opt/roscell/instance-shim";
+/// And where that has what it works with.
 constexpr const char* exit_file_inside = "/opt/roscell/exit";
 constexpr const char* fence_inside = "/opt/roscell/fence";
 

@@ -11,6 +11,9 @@ namespace roscell {
 
 /// The folder inside a container that holds its NOTIFY_SOCKET.
 constexpr const char* container_notify_dir = "/run/roscell";
+
+/// Where a container has what supervises it.
+constexpr const char* shim_inside = "/opt/roscell/instance-shim";
 constexpr const char* notify_socket_name = "notify";
 
 /// What all containers of one node have in common.

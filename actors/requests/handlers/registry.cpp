@@ -32,6 +32,12 @@ void add_node_requests(request_registry& registry) {
   registry.add(
       forward_within<reach_query, reach_report>(soon, &services::prober));
   registry.add(check_host);
+  registry.add(forward_within<exec_request, exec_started>(
+      *relayed_limit(exec_request::type), &services::execs));
+  registry.add(
+      forward_within<exec_input, exec_input_taken>(soon, &services::execs));
+  registry.add(
+      forward_within<exec_output_query, exec_output>(soon, &services::execs));
 }
 
 void add_primary_requests(request_registry& registry) {

@@ -291,6 +291,7 @@ constexpr value_source sources[] = {
     {"INSTANCE", "ids instances"},
     {"SHELL", "words bash zsh fish"},
     {"COMMAND", "commands"},
+    {"PROGRAM", "nothing"},
     // The shell alone finds these.
     {"ACTOR", "ids actors"},
     {"KIND", "ids kinds"},
