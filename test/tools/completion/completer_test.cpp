@@ -45,6 +45,8 @@ TEST_CASE("the shell completes commands and its own words", "[shell]") {
 TEST_CASE("the shell completes names of what lives", "[shell]") {
   CHECK(offered("tasks ") == words{"tasks-1", "tasks-2"});
   CHECK(offered("logs -f ") == words{"instances-1", "instances-2"});
+  CHECK(offered("exec -T ") == words{"instances-1", "instances-2"});
+  CHECK(offered("exec instances-1 ").empty());
   CHECK(offered("transfer ") == words{"nodes-1", "nodes-2"});
   CHECK(offered("transfer nodes-1 ") == words{"cells-1", "cells-2"});
   CHECK(offered("tree nodes-2") == words{"nodes-2"});
