@@ -211,9 +211,7 @@ cell_coordinator(coordinator_pointer self, const actor_context& context,
       [self](const task_termination& x) { return terminate_task(self, x); },
       [self](const task_restart& x) { return restart_task(self, x); },
       [self](const task_update& x) { return update_task(self, x); },
-      [self](const task_revisions_query& x) {
-        return list_revisions(self->state, x);
-      },
+      [self](const task_revisions_query& x) { return list_revisions(self, x); },
       [self](const presence_seen& x) { on_presence_seen(self, x.who); },
       [self](const presence_gone& x) { on_presence_gone(self, x.who); },
       [self](const peer_opened& x) { on_peer_opened(self, x); },

@@ -170,8 +170,9 @@ caf::result<task_update_plan> update_task(coordinator_pointer self,
   return promise;
 }
 
-caf::result<task_revisions> list_revisions(const cell_coordinator_state& st,
+caf::result<task_revisions> list_revisions(coordinator_pointer self,
                                            const task_revisions_query& query) {
+  const auto& st = self->state;
   const auto* entry = st.tasks.find(query.task);
   if (!entry)
     return unknown_thing("task", query.task);

@@ -18,7 +18,7 @@ namespace roscell {
 caf::result<task_update_plan> update_task(coordinator_pointer self,
                                           const task_update& request);
 
-caf::result<task_revisions> list_revisions(const cell_coordinator_state& st,
+caf::result<task_revisions> list_revisions(coordinator_pointer self,
                                            const task_revisions_query& query);
 
 // Whether what an update has started runs well, until the update is over: all

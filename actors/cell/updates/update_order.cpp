@@ -92,12 +92,14 @@ update_waves(const std::vector<replaced_step>& steps) {
     x.steps.push_back(i);
   }
   std::vector<wave> waves;
+  waves.reserve(by_root.size());
   for (auto& [root, x] : by_root)
     waves.push_back(std::move(x));
   std::stable_sort(
       waves.begin(), waves.end(),
       [](const auto& x, const auto& y) { return x.rank < y.rank; });
   std::vector<std::vector<size_t>> result;
+  result.reserve(waves.size());
   for (auto& x : waves)
     result.push_back(std::move(x.steps));
   return result;
