@@ -34,7 +34,7 @@ instances() {
 # at INSTANCE STATE: when it was first told to be so, in ms.
 at() {
   jq -rn --arg x "$1" --arg state "$2" 'first(inputs
-    | select(.subject == $x and .data.state == $state) | .unix_ms)' "$scratch/events.json"
+    | select(.subject == $x and .data.state == $state) | .time_unix_ms)' "$scratch/events.json"
 }
 
 mkdir -p "$scratch/data"
