@@ -3,6 +3,7 @@
 #include "actors/cell/state/coordinator_state.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,11 @@ void start_due_again(coordinator_pointer self);
 
 // Healing and restart: what has ended is started again, or what an operator
 // wants to begin anew.
+
+/// What keeps a task's instances from being replaced or started again now;
+/// null: nothing.
+std::optional<failure> why_busy(const cell_coordinator_state& st,
+                                const std::string& task);
 
 /// The steps of a task that have ended otherwise than with 0, and those whose
 /// node has gone from the cell.

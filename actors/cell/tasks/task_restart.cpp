@@ -37,32 +37,12 @@ bool has(const instance_list& list, const std::string& instance) {
   return std::find(list.begin(), list.end(), instance) != list.end();
 }
 
-/// What keeps a task's instances from being started again now.
-std::optional<failure> hindrance(const cell_coordinator_state& st,
-                                 const std::string& task) {
-  const auto* entry = st.tasks.find(task);
-  if (!entry || entry->ending || entry->state == task_state::deploying)
-    return failure{error_code::conflict,
-                   "task '" + task + "' is being deployed or terminated",
-                   "/task", "send it again in a while"};
-  if (auto why = why_too_late(st, task))
-    return why;
-  const auto& placed = st.deployments.of_task(task);
-  if (std::any_of(placed.begin(), placed.end(),
-                  [](const auto& x) { return x.tentative; }))
-    return failure{error_code::conflict,
-                   "instances of task '" + task
-                       + "' are being moved or started again",
-                   "/task", "send it again when they run"};
-  return std::nullopt;
-}
-
 /// Starts these instances anew. Those in `stay` do so on their nodes.
 void start_again(coordinator_pointer self, const move_ptr& move,
                  const std::string& task, const instance_list& wanted,
                  const instance_list& stay) {
   const auto& st = self->state;
-  if (auto why = hindrance(st, task))
+  if (auto why = why_busy(st, task))
     return fail_move(self, move, *why);
   const auto request = request_of(*st.tasks.find(task));
   if (!request)
@@ -142,7 +122,7 @@ restart_plan plan_restart(const cell_coordinator_state& st,
   restart_plan result;
   result.problem = why_updating(st, request.task);
   if (!result.problem)
-    result.problem = hindrance(st, request.task);
+    result.problem = why_busy(st, request.task);
   for (const auto& x : st.deployments.of_task(request.task)) {
     if (!request.instance.empty() && x.spec.instance != request.instance)
       continue;
@@ -183,6 +163,25 @@ instance_list all_instances(const cell_coordinator_state& st,
 }
 
 } // namespace
+
+std::optional<failure> why_busy(const cell_coordinator_state& st,
+                                const std::string& task) {
+  const auto* entry = st.tasks.find(task);
+  if (!entry || entry->ending || entry->state == task_state::deploying)
+    return failure{error_code::conflict,
+                   "task '" + task + "' is being deployed or terminated",
+                   "/task", "send it again in a while"};
+  if (auto why = why_too_late(st, task))
+    return why;
+  const auto& placed = st.deployments.of_task(task);
+  if (std::any_of(placed.begin(), placed.end(),
+                  [](const auto& x) { return x.tentative; }))
+    return failure{error_code::conflict,
+                   "instances of task '" + task
+                       + "' are being moved or started again",
+                   "/task", "send it again when they run"};
+  return std::nullopt;
+}
 
 std::vector<std::string> steps_to_heal(const cell_coordinator_state& st,
                                        const std::string& task) {

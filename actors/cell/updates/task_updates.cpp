@@ -1,6 +1,7 @@
 #include "actors/cell/updates/task_updates.hpp"
 
 #include "actors/cell/state/coordinator_store.hpp"
+#include "actors/cell/tasks/cell_tasks.hpp"
 #include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
@@ -106,7 +107,7 @@ void plan_under_lock(coordinator_pointer self, const update_ptr& run,
   place_update(self, run, [self, run, promise](const completion& placed) {
     if (!placed)
       return refuse(self, run, promise, placed.error());
-    if (auto why = why_not_updated(self->state, task_of(*run)))
+    if (auto why = why_busy(self->state, task_of(*run)))
       return refuse(self, run, promise, *why);
     if (!self->state.failures.has_room(run->steps.size()))
       return refuse(self, run, promise,

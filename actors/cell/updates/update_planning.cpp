@@ -1,5 +1,6 @@
 #include "actors/cell/moves/moved_steps.hpp"
 #include "actors/cell/state/build_offers.hpp"
+#include "actors/cell/tasks/cell_tasks.hpp"
 #include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
@@ -106,28 +107,9 @@ const std::string& task_of(const update_run& run) {
   return run.request.task;
 }
 
-std::optional<failure> why_not_updated(const cell_coordinator_state& st,
-                                       const std::string& task) {
-  const auto* entry = st.tasks.find(task);
-  if (!entry || entry->ending || entry->state == task_state::deploying)
-    return failure{error_code::conflict,
-                   "task '" + task + "' is being deployed or terminated",
-                   "/task", "send it again in a while"};
-  if (auto why = why_too_late(st, task))
-    return why;
-  const auto& placed = st.deployments.of_task(task);
-  if (std::any_of(placed.begin(), placed.end(),
-                  [](const auto& x) { return x.tentative; }))
-    return failure{error_code::conflict,
-                   "instances of task '" + task
-                       + "' are being moved or started again",
-                   "/task", "send it again when they run"};
-  return std::nullopt;
-}
-
 std::optional<failure> plan_changes(coordinator_pointer self, update_run& run) {
   const auto& st = self->state;
-  if (auto why = why_not_updated(st, task_of(run)))
+  if (auto why = why_busy(st, task_of(run)))
     return why;
   auto placed = placed_of(st, task_of(run));
   auto read = read_request(st, run, placed);

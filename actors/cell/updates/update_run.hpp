@@ -46,10 +46,6 @@ std::vector<replacement> replacements_of(const update_run& run);
 
 // Planning.
 
-/// Why the task cannot be changed now; null: it can.
-std::optional<failure> why_not_updated(const cell_coordinator_state& st,
-                                       const std::string& task);
-
 /// Reads the request and compares it with what runs. Errors as those of the
 /// message.
 std::optional<failure> plan_changes(coordinator_pointer self, update_run& run);

@@ -101,3 +101,26 @@ commands_are_told() {
     > "$scratch/events" 2>&1
   ! has_line 'exit 4' "$scratch/events" || fail "its arguments are told"
 }
+
+# a_terminal_serves_a_command: a shell beside $instance knows the size of its
+# terminal, hears when that changes, gets Ctrl-C, and ends with its exit code.
+a_terminal_serves_a_command() {
+  open_terminal 80 24
+  run_here "$ROSCELL exec --to $scratch/head/node.sock $instance -- bash --norc"
+  await_screen '^bash.*[$#]$'
+  type_keys 'tty -s && stty size' Enter
+  await_screen '^24 80$'
+  type_keys "bash -c \"trap 'clear; stty size' WINCH; echo set; \
+while sleep 0.1; do :; done\"" Enter
+  await_screen '^set$'
+  tmux resize-window -t it -x 100 -y 30
+  await_screen '^30 100$'
+  tmux resize-window -t it -x 80 -y 24
+  await_screen '^24 80$'
+  type_keys C-c "sleep $long_s" Enter
+  await_screen "sleep $long_s"
+  type_keys C-c 'echo it is $?' Enter
+  await_screen '^it is 130$'
+  type_keys 'exit 5' Enter
+  ended_with 5
+}

@@ -87,24 +87,7 @@ test_an_instance_goes_on_while_commands_run() {
 
 test_a_command_at_a_terminal_has_it() {
   start_alone
-  open_terminal 80 24
-  run_here "$ROSCELL exec --to $scratch/head/node.sock $instance -- bash --norc"
-  await_screen '^bash.*[$#]$'
-  type_keys 'tty -s && stty size' Enter
-  await_screen '^24 80$'
-  type_keys "bash -c \"trap 'clear; stty size' WINCH; echo set; \
-while sleep 0.1; do :; done\"" Enter
-  await_screen '^set$'
-  tmux resize-window -t it -x 100 -y 30
-  await_screen '^30 100$'
-  tmux resize-window -t it -x 80 -y 24
-  await_screen '^24 80$'
-  type_keys C-c "sleep $long_s" Enter
-  await_screen "sleep $long_s"
-  type_keys C-c 'echo it is $?' Enter
-  await_screen '^it is 130$'
-  type_keys 'exit 5' Enter
-  ended_with 5
+  a_terminal_serves_a_command
 }
 
 test_a_terminal_is_restored_whatever_ends_a_command() {

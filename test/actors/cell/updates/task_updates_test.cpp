@@ -26,6 +26,11 @@ struct changing_cell : careful_cell {
                  versioned(echo_step("s1", 1, "right"), second)});
   }
 
+  /// A step that has to be stop-safe, on the left.
+  static json grasp(int version) {
+    return task({versioned(grasp_step("s0", "left"), version)});
+  }
+
   json update(json document, const json& options = json::object()) {
     document["type"] = "task_update";
     document.update(options);
@@ -334,9 +339,6 @@ TEST_CASE_METHOD(changing_cell,
 
 TEST_CASE_METHOD(changing_cell, "What is not stop-safe is waited for",
                  "[task_updates]") {
-  const auto grasp = [](int version) {
-    return task({versioned(grasp_step("s0", "left"), version)});
-  };
   run(grasp(1));
   const auto old = on(left, "s0");
   left.not_stop_safe.insert(old);
@@ -354,9 +356,6 @@ TEST_CASE_METHOD(changing_cell, "What is not stop-safe is waited for",
 TEST_CASE_METHOD(changing_cell,
                  "What stays not stop-safe runs on, and its change is put back",
                  "[task_updates]") {
-  const auto grasp = [](int version) {
-    return task({versioned(grasp_step("s0", "left"), version)});
-  };
   run(grasp(1));
   const auto old = on(left, "s0");
   left.not_stop_safe.insert(old);
