@@ -1,5 +1,7 @@
 #include "actors/edge/exec/attached_program.hpp"
 
+#include "actors/edge/process/spawn_words.hpp"
+
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/ioctl.h>
@@ -12,7 +14,6 @@
 #include <cstring>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace roscell {
 
@@ -84,15 +85,6 @@ void give_to(uid_t user, const program_ends& ends) {
         ::fchown(end->get(), user, static_cast<gid_t>(-1));
 }
 
-std::vector<char*> pointers_to(std::vector<std::string>& texts) {
-  std::vector<char*> result;
-  result.reserve(texts.size() + 1);
-  for (auto& x : texts)
-    result.push_back(x.data());
-  result.push_back(nullptr);
-  return result;
-}
-
 /// Returns 0 or an error number.
 int run_with(const program& what, const program_ends& ends, pid_t& pid) {
   posix_spawn_file_actions_t actions;
@@ -113,15 +105,10 @@ int run_with(const program& what, const program_ends& ends, pid_t& pid) {
   ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK
                                               | POSIX_SPAWN_SETSIGDEF
                                               | POSIX_SPAWN_SETSID);
-  auto words = what.arguments;
-  words.insert(words.begin(), what.path.string());
-  std::vector<std::string> settings;
-  settings.reserve(what.environment.size());
-  for (const auto& [name, value] : what.environment)
-    settings.push_back(name + '=' + value);
+  spawn_words words{what};
   const int result =
       ::posix_spawn(&pid, what.path.c_str(), &actions, &attributes,
-                    pointers_to(words).data(), pointers_to(settings).data());
+                    words.arguments(), words.environment());
   ::posix_spawnattr_destroy(&attributes);
   ::posix_spawn_file_actions_destroy(&actions);
   return result;

@@ -1,6 +1,7 @@
 #include "actors/edge/process/process_spawner.hpp"
 
 #include "actors/edge/process/process_identity.hpp"
+#include "actors/edge/process/spawn_words.hpp"
 #include "schemas/utf8.hpp"
 
 #include <fcntl.h>
@@ -59,26 +60,12 @@ public:
 
   /// Returns 0 or an error number.
   int run(const program& what, pid_t& pid) {
-    auto texts = what.arguments;
-    texts.insert(texts.begin(), what.path.string());
-    std::vector<std::string> settings;
-    settings.reserve(what.environment.size());
-    for (const auto& [name, value] : what.environment)
-      settings.push_back(name + '=' + value);
+    spawn_words words{what};
     return ::posix_spawn(&pid, what.path.c_str(), &actions_, &attributes_,
-                         pointers(texts).data(), pointers(settings).data());
+                         words.arguments(), words.environment());
   }
 
 private:
-  static std::vector<char*> pointers(std::vector<std::string>& texts) {
-    std::vector<char*> result;
-    result.reserve(texts.size() + 1);
-    for (auto& x : texts)
-      result.push_back(x.data());
-    result.push_back(nullptr);
-    return result;
-  }
-
   posix_spawn_file_actions_t actions_;
   posix_spawnattr_t attributes_;
 };
