@@ -62,6 +62,9 @@ using node_agent_actor = introspected_actor::extend<
     // Replies once the named instances are gone from the node, but for those
     // that are not stop-safe yet.
     caf::replies_to<instance_removal>::with<instances_removed>,
+    // Replies once its program works with them. Errors: as the SKILL
+    // INSTANCE's.
+    caf::replies_to<set_parameters>::with<parameters_set>,
     // Errors: timeout, unreachable.
     caf::replies_to<figures_query>::with<figures_report>,
     // Errors: unknown_task.
@@ -296,6 +299,15 @@ using cell_coordinator_actor = introspected_actor::extend<
     caf::replies_to<task_update>::with<task_update_plan>,
     // Errors: unknown_task.
     caf::replies_to<task_revisions_query>::with<task_revisions>,
+    // Replies once the set is written down. Errors: conflict (a task has that
+    // name, too many sets), schema_violation (a name that would be too long),
+    // task_exists (another request, where only a new set is wanted), internal.
+    caf::replies_to<task_set_request>::with<task_set_plan>,
+    // Replies once the program works with them and the task says so. Errors:
+    // unknown_task, schema_violation (no such parameter, one that cannot be
+    // changed, a value that it cannot have), conflict (it does not run, or its
+    // program refuses), unreachable, timeout, internal.
+    caf::replies_to<parameter_change>::with<parameters_changed>,
     caf::reacts_to<presence_seen>, caf::reacts_to<presence_gone>,
     caf::reacts_to<peer_opened>, caf::reacts_to<peer_lost>,
     caf::reacts_to<peer_status_reported>, caf::reacts_to<peer_changed>,

@@ -55,6 +55,9 @@ struct instance_spec {
   resource_request resources;
   life_policy life;
   std::vector<std::string> arguments; ///< The step's, after the skill's.
+  std::vector<std::string> secrets;   ///< Of its node, given to it as files.
+  /// Environment variables, each with the name of the secret that is its value.
+  std::map<std::string, std::string> secret_env;
 
   static constexpr auto fields() {
     return field_list{required("instance", &instance_spec::instance),
@@ -72,7 +75,9 @@ struct instance_spec {
                       optional("environment", &instance_spec::environment),
                       required("resources", &instance_spec::resources),
                       optional("life", &instance_spec::life),
-                      optional("arguments", &instance_spec::arguments)};
+                      optional("arguments", &instance_spec::arguments),
+                      optional("secrets", &instance_spec::secrets),
+                      optional("secret_env", &instance_spec::secret_env)};
   }
 };
 

@@ -110,6 +110,10 @@ using skill_instance_actor = introspected_actor::extend<
     caf::reacts_to<container_exited>, caf::reacts_to<instance_notified>,
     caf::reacts_to<endpoints_missing>, caf::reacts_to<contact_proven>,
     caf::reacts_to<contact_lost>, caf::reacts_to<use_environment>,
+    // Replies once its program works with them. Errors: conflict (it does not
+    // run, its program is told something else already, does not take
+    // parameters while it runs, or refuses these), timeout.
+    caf::replies_to<set_parameters>::with<parameters_set>,
     // INTERNAL: a deadline of phase number N has passed.
     caf::reacts_to<caf::tick_atom, uint64_t>>;
 
@@ -143,6 +147,8 @@ using container_supervisor_actor = introspected_actor::extend<
     // Replies once they are gone, but for those that are not stop-safe yet;
     // none is no error. Errors: engine_failed (one cannot be removed).
     caf::replies_to<instance_removal>::with<instances_removed>,
+    // Errors: unknown_task (no such instance), and those of the instance.
+    caf::replies_to<set_parameters>::with<parameters_set>,
     // Errors: unknown_task (no such instance).
     caf::replies_to<instance_query>::with<instance_description>,
     // The same. Where the instance is gone its kept log is read.
@@ -169,6 +175,19 @@ using exec_host_actor = introspected_actor::extend<
     caf::reacts_to<exec_progress>,
     // INTERNAL: alarm number N is due.
     caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+/// The SECRET KEEPER: the secrets of this node. It blocks on the disk.
+using secret_keeper_actor = introspected_actor::extend<
+    // Replies once it is on the disk. Errors: schema_violation (no base64, too
+    // long), conflict (too many secrets), internal (the disk).
+    caf::replies_to<secret_setting>::with<secret_set>,
+    caf::replies_to<secret_query>::with<secret_list>,
+    // Errors: conflict (there is none of that name), internal.
+    caf::replies_to<secret_removal>::with<secret_removed>,
+    // Errors: conflict (there is none of that name), internal (no room, no
+    // file system of memory).
+    caf::replies_to<lay_out_secrets>::with<secrets_laid_out>,
+    caf::reacts_to<clear_secrets>>;
 
 /// The BUILD KEEPER: the builds on this node's disk. It blocks there.
 using build_keeper_actor = introspected_actor::extend<

@@ -49,6 +49,7 @@ struct node_resources {
   double cpu_compressible = 0;
   /// What its configuration grants to skills, "SKILL=WHAT" each.
   std::vector<std::string> grants;
+  std::vector<std::string> secrets; ///< Names of those that it keeps.
 
   static constexpr auto fields() {
     return field_list{
@@ -62,7 +63,8 @@ struct node_resources {
         required("labels", &node_resources::labels),
         required("devices", &node_resources::devices),
         optional("cpu_compressible", &node_resources::cpu_compressible),
-        optional("grants", &node_resources::grants)};
+        optional("grants", &node_resources::grants),
+        optional("secrets", &node_resources::secrets)};
   }
 };
 

@@ -34,6 +34,13 @@ struct task_step {
   /// Environment variables of its program, over those of its skill.
   std::map<std::string, std::string> env;
   std::vector<std::string> arguments; ///< Of its program, after its skill's.
+  /// Its program is started so often, as steps "<id>-1", "<id>-2" and so on;
+  /// in their texts `${copy}` is the number.
+  int64_t copies = 1;
+  bool anywhere = false; ///< In a set of tasks: it may run on another node.
+  std::vector<std::string> secrets; ///< That its program can read as files.
+  /// Environment variables, each with the name of the secret that is its value.
+  std::map<std::string, std::string> secret_env;
 
   static constexpr auto fields() {
     return field_list{required("id", &task_step::id),
@@ -53,7 +60,11 @@ struct task_step {
                       optional("priority", &task_step::priority),
                       optional("on_boot", &task_step::on_boot),
                       optional("env", &task_step::env),
-                      optional("arguments", &task_step::arguments)};
+                      optional("arguments", &task_step::arguments),
+                      optional("copies", &task_step::copies),
+                      optional("anywhere", &task_step::anywhere),
+                      optional("secrets", &task_step::secrets),
+                      optional("secret_env", &task_step::secret_env)};
   }
 };
 
@@ -94,6 +105,7 @@ struct task_request {
   update_policy update;
   /// Where its task has ended, and had another request, this is its next run.
   bool replace = false;
+  std::string set; ///< That it is one of; empty: none.
   /// Under one id a task runs once. Empty: it has none.
   std::string request_id;
 
@@ -106,6 +118,7 @@ struct task_request {
                       optional("labels", &task_request::labels),
                       optional("update", &task_request::update),
                       optional("replace", &task_request::replace),
+                      optional("set", &task_request::set),
                       optional("request_id", &task_request::request_id)};
   }
 };
@@ -250,6 +263,7 @@ struct task_row {
   /// Why the last update was put back; empty: it was not.
   std::string update_problem;
   std::map<std::string, std::string> labels; ///< As in `task_request`.
+  std::string set;                           ///< The same.
 
   static constexpr auto fields() {
     return field_list{
@@ -263,7 +277,47 @@ struct task_row {
         optional("revision", &task_row::revision),
         optional("updating", &task_row::updating),
         optional("update_problem", &task_row::update_problem),
-        optional("labels", &task_row::labels)};
+        optional("labels", &task_row::labels),
+        optional("set", &task_row::set)};
+  }
+};
+
+/// A node whose task of a set does not run as it is to.
+struct set_problem {
+  std::string node;
+  std::string reason;
+
+  static constexpr auto fields() {
+    return field_list{required("node", &set_problem::node),
+                      required("reason", &set_problem::reason)};
+  }
+};
+
+/// What is known of a set of tasks.
+struct task_set_row {
+  std::string task; ///< Name of the set.
+  int64_t submitted_unix_ms = 0;
+  std::map<std::string, std::string> labels; ///< Of the nodes that it is for.
+  int64_t nodes = 0;                         ///< How many these are at present.
+  int64_t running = 0; ///< On how many of them its task runs as it is to.
+  int64_t pending = 0; ///< On how many something is still to be done.
+  std::vector<set_problem> problems;
+  /// Nodes on which somebody has stopped its task: it stays so until the set is
+  /// applied once more.
+  std::vector<std::string> stopped;
+  std::string request; ///< JSON of the `task_set_request`, where it is named.
+
+  static constexpr auto fields() {
+    return field_list{
+        required("task", &task_set_row::task),
+        required("submitted_unix_ms", &task_set_row::submitted_unix_ms),
+        optional("labels", &task_set_row::labels),
+        required("nodes", &task_set_row::nodes),
+        required("running", &task_set_row::running),
+        optional("pending", &task_set_row::pending),
+        optional("problems", &task_set_row::problems),
+        optional("stopped", &task_set_row::stopped),
+        raw_json("request", &task_set_row::request)};
   }
 };
 
@@ -294,7 +348,7 @@ struct task_history {
 
 struct task_query {
   static constexpr const char* type = "task_query";
-  std::string task; ///< Empty: all.
+  std::string task; ///< Or a set, for all its tasks; empty: all.
 
   static constexpr auto fields() {
     return field_list{optional("task", &task_query::task)};
@@ -304,9 +358,11 @@ struct task_query {
 struct task_description {
   static constexpr const char* type = "task_description";
   std::vector<task_row> tasks;
+  std::vector<task_set_row> sets;
 
   static constexpr auto fields() {
-    return field_list{required("tasks", &task_description::tasks)};
+    return field_list{required("tasks", &task_description::tasks),
+                      optional("sets", &task_description::sets)};
   }
 };
 
@@ -328,12 +384,14 @@ struct task_change_query {
 
 struct task_change {
   static constexpr const char* type = "task_change";
-  std::string mark;            ///< Of this state; opaque.
-  std::vector<task_row> tasks; ///< The task; empty: the cell has none such.
+  std::string mark;               ///< Of this state; opaque.
+  std::vector<task_row> tasks;    ///< The task; empty: the cell has none such.
+  std::vector<task_set_row> sets; ///< The set, where it is one.
 
   static constexpr auto fields() {
     return field_list{required("mark", &task_change::mark),
-                      required("tasks", &task_change::tasks)};
+                      required("tasks", &task_change::tasks),
+                      optional("sets", &task_change::sets)};
   }
 };
 

@@ -59,6 +59,7 @@ struct task_update {
   bool keep_builds = false; ///< A newer build of its skill changes no step.
   bool restart_all = false; ///< Every step counts as changed.
   bool force = false;       ///< Nothing is waited for to be stop-safe.
+  std::string set;          ///< As in `task_request`.
 
   static constexpr auto fields() {
     return field_list{required("task", &task_update::task),
@@ -69,7 +70,8 @@ struct task_update {
                       optional("dry_run", &task_update::dry_run),
                       optional("keep_builds", &task_update::keep_builds),
                       optional("restart_all", &task_update::restart_all),
-                      optional("force", &task_update::force)};
+                      optional("force", &task_update::force),
+                      optional("set", &task_update::set)};
   }
 };
 

@@ -77,6 +77,21 @@
   X(task_update_plan)                                                          \
   X(task_revisions_query)                                                      \
   X(task_revisions)                                                            \
+  X(task_set_request)                                                          \
+  X(task_set_plan)                                                             \
+  X(parameter_change)                                                          \
+  X(parameters_changed)                                                        \
+  X(set_parameters)                                                            \
+  X(parameters_set)                                                            \
+  X(secret_setting)                                                            \
+  X(secret_set)                                                                \
+  X(secret_query)                                                              \
+  X(secret_list)                                                               \
+  X(secret_removal)                                                            \
+  X(secret_removed)                                                            \
+  X(lay_out_secrets)                                                           \
+  X(secrets_laid_out)                                                          \
+  X(clear_secrets)                                                             \
   X(task_history_query)                                                        \
   X(task_history)                                                              \
   X(task_query)                                                                \

@@ -1,5 +1,6 @@
 #include "messages/handshake.hpp"
 #include "messages/image.hpp"
+#include "messages/parameter_change.hpp"
 #include "messages/reservation.hpp"
 #include "messages/session.hpp"
 #include "schemas/rules/field_schema.hpp"
@@ -76,6 +77,7 @@ std::vector<schema_entry> node_schemas() {
   add_exchange<instance_reservation, instances_reserved>(result);
   add_exchange<instance_deployment, instance_deployed>(result);
   add_exchange<instance_removal, instances_removed>(result);
+  add_exchange<set_parameters, parameters_set>(result);
   add_exchange<build_keeping, build_kept>(result);
   add_exchange<build_release, build_released>(result);
   add_exchange<image_request, image_offered>(result);

@@ -146,7 +146,7 @@ void check_verdicts(error_list& errors, const place& x) {
 
 using check = void (*)(error_list&, const place&);
 
-constexpr std::array<std::pair<std::string_view, check>, 11> all_checks{{
+constexpr std::array<std::pair<std::string_view, check>, 12> all_checks{{
     {"cell_formation", check_members},
     {"instance_deployment", check_deployment},
     {"instance_reservation", check_reservation},
@@ -157,6 +157,7 @@ constexpr std::array<std::pair<std::string_view, check>, 11> all_checks{{
     {"skill_descriptor", check_written_descriptor},
     {"task_plan_query", check_plan_query},
     {"task_request", check_pipeline},
+    {"task_set_request", check_pipeline},
     {"task_update", check_pipeline},
 }};
 

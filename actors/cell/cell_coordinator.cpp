@@ -8,6 +8,7 @@
 #include "actors/cell/image_offers.hpp"
 #include "actors/cell/moves/abandoned_steps.hpp"
 #include "actors/cell/moves/task_move.hpp"
+#include "actors/cell/sets/cell_sets.hpp"
 #include "actors/cell/skill_additions.hpp"
 #include "actors/cell/state/build_offers.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
@@ -18,6 +19,7 @@
 #include "actors/cell/tasks/cell_instances.hpp"
 #include "actors/cell/tasks/cell_tasks.hpp"
 #include "actors/cell/tasks/late_tasks.hpp"
+#include "actors/cell/tasks/parameter_changes.hpp"
 #include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_endings.hpp"
@@ -212,6 +214,8 @@ cell_coordinator(coordinator_pointer self, const actor_context& context,
       [self](const task_restart& x) { return restart_task(self, x); },
       [self](const task_update& x) { return update_task(self, x); },
       [self](const task_revisions_query& x) { return list_revisions(self, x); },
+      [self](const task_set_request& x) { return apply_set(self, x); },
+      [self](const parameter_change& x) { return change_parameters(self, x); },
       [self](const presence_seen& x) { on_presence_seen(self, x.who); },
       [self](const presence_gone& x) { on_presence_gone(self, x.who); },
       [self](const peer_opened& x) { on_peer_opened(self, x); },

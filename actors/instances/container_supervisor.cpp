@@ -192,6 +192,16 @@ void on_exited(container_supervisor_self self, const container_exited& event) {
     self->send(x->actor, event);
 }
 
+caf::result<parameters_set> pass_parameters(container_supervisor_self self,
+                                            const set_parameters& request) {
+  auto* x = find_instance(self, request.instance);
+  if (x == nullptr || !x->actor)
+    return fail(error_code::unknown_task,
+                "no instance '" + request.instance + "' runs here",
+                "/instance");
+  return self->delegate(x->actor, request);
+}
+
 void on_runtime_problem(container_supervisor_self self,
                         const std::string& problem) {
   auto& st = self->state;
@@ -224,6 +234,7 @@ container_supervisor(container_supervisor_self self,
       [self](const state_query&) { return state_of(summary(self->state)); },
       [self](const instance_deployment& x) { return deploy(self, x.spec); },
       [self](const instance_removal& x) { return remove_instances(self, x); },
+      [self](const set_parameters& x) { return pass_parameters(self, x); },
       [self](const instance_query& x) { return describe(self, x); },
       [self](const log_query& x) { return read_log(self, x); },
       [self](const kept_logs_query& x) { return list_logs(self, x); },

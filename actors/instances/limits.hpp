@@ -52,6 +52,11 @@ constexpr seconds watchdog{10};
 /// so after a lost word the next one still comes before they are judged.
 constexpr seconds announced_watchdog{8};
 
+/// For a program that runs to take other parameters, between two frames,
+constexpr seconds parameter_answer{5};
+/// and for whoever asks its instance to have it do so.
+constexpr seconds parameters{6};
+
 /// An alarm that comes later than this tells of a pause of our own process.
 constexpr seconds pause_tolerance{2};
 

@@ -105,6 +105,9 @@ void on_request(self_pointer self, const session_inquiry& x) {
   else if (type == instance_removal::type)
     decode_and_forward<instances_removed, instance_removal>(
         self, x, limits::task::removal);
+  else if (type == set_parameters::type)
+    decode_and_forward<parameters_set, set_parameters>(
+        self, x, limits::session::parameters);
   else if (type == build_keeping::type)
     decode_and_forward<build_kept, build_keeping>(self, x,
                                                   limits::build::keeping);

@@ -41,6 +41,9 @@ static_assert(instance::announced_watchdog < instance::watchdog
 static_assert(3 * instance::force_interval < instance::stop);
 static_assert(instance::force < instance::stop);
 
+static_assert(instance::parameter_answer < instance::parameters
+              && instance::parameters < session::parameters - session::margin);
+
 static_assert(build::more < build::more_call
               && build::piece_call < build::fetch);
 static_assert(build::fetch < instance::deployment);

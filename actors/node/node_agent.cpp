@@ -216,6 +216,9 @@ local_agent_actor::behavior_type node_agent(node_agent_self self,
         self->state.kept.give_up(x.task, x.instance);
         return forward<instances_removed>(self, limits::task::agent_removal, x);
       },
+      [self](const set_parameters& x) {
+        return forward<parameters_set>(self, limits::instance::parameters, x);
+      },
       [self](const log_query& x) {
         return forward<log_excerpt>(
             self, limits::log::agent + std::chrono::milliseconds{x.wait_ms}, x);

@@ -21,6 +21,8 @@ namespace task {
 constexpr int placement_rounds = 3;
 /// To end instances of a task and to start them again.
 constexpr seconds restart{870};
+/// For other parameters of an instance: its node has `session::parameters`.
+constexpr seconds parameters{15};
 /// How many wait at a time for a change of a task: half of the clients that an
 /// HTTP server works for at once.
 constexpr size_t change_waiters = 32;

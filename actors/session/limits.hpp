@@ -31,6 +31,8 @@ constexpr unsigned bad_frames = 3;
 constexpr milliseconds resource_query{6000};
 /// For what a node's instances say of themselves.
 constexpr milliseconds metrics{4000};
+/// For other parameters of an instance.
+constexpr milliseconds parameters{9000};
 /// One coordinator's word to another one.
 constexpr milliseconds peer_answer{3000};
 

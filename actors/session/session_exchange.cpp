@@ -8,8 +8,10 @@
 #include "messages/formation.hpp"
 #include "messages/insight/request_trace.hpp"
 #include "messages/instance.hpp"
+#include "messages/parameter_change.hpp"
 #include "messages/rebalance.hpp"
 #include "messages/task.hpp"
+#include "messages/task_set.hpp"
 #include "messages/task_update.hpp"
 #include "messages/topic.hpp"
 
@@ -157,11 +159,12 @@ constexpr std::array<std::string_view, 11> queries{
     task_revisions_query::type};
 
 /// What it has to do something for.
-constexpr std::array<std::string_view, 11> commands{
-    task_request::type,   task_plan_query::type, task_termination::type,
-    task_restart::type,   node_drain::type,      node_undrain::type,
-    cell_rebalance::type, skill_addition::type,  skill_removal::type,
-    skill_pull::type,     task_update::type};
+constexpr std::array<std::string_view, 13> commands{
+    task_request::type,    task_plan_query::type, task_termination::type,
+    task_restart::type,    node_drain::type,      node_undrain::type,
+    cell_rebalance::type,  skill_addition::type,  skill_removal::type,
+    skill_pull::type,      task_update::type,     task_set_request::type,
+    parameter_change::type};
 
 /// That whoever waits for the member's answer waits longer than the member.
 constexpr std::chrono::seconds log_margin{2};

@@ -9,6 +9,7 @@
 #include "messages/kept_log.hpp"
 #include "messages/node.hpp"
 #include "messages/resources.hpp"
+#include "messages/secret.hpp"
 #include "messages/session.hpp"
 
 namespace roscell {
@@ -53,6 +54,16 @@ ROSCELL_CODEC(amount)
 ROSCELL_CODEC(gpu_resources)
 ROSCELL_CODEC(node_resources)
 ROSCELL_CODEC(resource_request)
+ROSCELL_CODEC(secret_setting)
+ROSCELL_CODEC(secret_set)
+ROSCELL_CODEC(secret_query)
+ROSCELL_CODEC(secret_row)
+ROSCELL_CODEC(secret_list)
+ROSCELL_CODEC(secret_removal)
+ROSCELL_CODEC(secret_removed)
+ROSCELL_DESCRIBED(lay_out_secrets)
+ROSCELL_DESCRIBED(secrets_laid_out)
+ROSCELL_DESCRIBED(clear_secrets)
 ROSCELL_CODEC(session_request)
 ROSCELL_CODEC(session_reply)
 ROSCELL_CODEC(session_notice)

@@ -4,9 +4,11 @@
 #include "messages/image.hpp"
 #include "messages/insight/examination.hpp"
 #include "messages/insight/request_trace.hpp"
+#include "messages/parameter_change.hpp"
 #include "messages/reservation.hpp"
 #include "messages/skill.hpp"
 #include "messages/task.hpp"
+#include "messages/task_set.hpp"
 #include "messages/task_update.hpp"
 
 namespace roscell {
@@ -89,5 +91,16 @@ ROSCELL_CODEC(task_update_plan)
 ROSCELL_CODEC(task_revisions_query)
 ROSCELL_CODEC(task_revision)
 ROSCELL_CODEC(task_revisions)
+ROSCELL_CODEC(set_problem)
+ROSCELL_CODEC(task_set_row)
+ROSCELL_CODEC(node_choice)
+ROSCELL_CODEC(set_policy)
+ROSCELL_CODEC(task_set_request)
+ROSCELL_CODEC(set_change)
+ROSCELL_CODEC(task_set_plan)
+ROSCELL_CODEC(parameter_change)
+ROSCELL_CODEC(parameters_changed)
+ROSCELL_CODEC(set_parameters)
+ROSCELL_CODEC(parameters_set)
 
 } // namespace roscell

@@ -66,6 +66,8 @@ struct start_container {
   std::vector<std::string> capabilities; ///< The same, "NET_RAW".
   std::string user;       ///< The same; empty: the node's. Processes only.
   bool read_only = false; ///< Its root file system may be.
+  /// Folder of the files that hold its secrets; empty: it has none.
+  std::string secrets_folder;
 
   static constexpr auto fields() {
     return field_list{
@@ -85,7 +87,8 @@ struct start_container {
         optional("scheduling", &start_container::scheduling),
         optional("capabilities", &start_container::capabilities),
         optional("user", &start_container::user),
-        optional("read_only", &start_container::read_only)};
+        optional("read_only", &start_container::read_only),
+        optional("secrets_folder", &start_container::secrets_folder)};
   }
 };
 
@@ -255,18 +258,29 @@ struct instance_notified {
   std::vector<stream_metrics> streams; ///< ROSCELL_STREAMS=...
   std::vector<stream_count> frames;    ///< ROSCELL_FRAMES=...
   std::string remark;                  ///< ROSCELL_REMARK=...
+  /// ROSCELL_PARAMETERS_TAKEN=..., the number of a change.
+  int64_t parameters_taken = 0;
+  /// ROSCELL_PARAMETERS_REFUSED=..., the number of a change, and why.
+  int64_t parameters_refused = 0;
+  std::string refusal;
+  std::string wanted_parameters; ///< ROSCELL_PARAMETERS_WANTED=..., JSON.
 
   static constexpr auto fields() {
-    return field_list{required("instance", &instance_notified::instance),
-                      required("ready", &instance_notified::ready),
-                      required("alive", &instance_notified::alive),
-                      required("stopping", &instance_notified::stopping),
-                      required("status", &instance_notified::status),
-                      required("heard", &instance_notified::heard),
-                      required("safe", &instance_notified::safe),
-                      required("streams", &instance_notified::streams),
-                      required("frames", &instance_notified::frames),
-                      required("remark", &instance_notified::remark)};
+    return field_list{
+        required("instance", &instance_notified::instance),
+        required("ready", &instance_notified::ready),
+        required("alive", &instance_notified::alive),
+        required("stopping", &instance_notified::stopping),
+        required("status", &instance_notified::status),
+        required("heard", &instance_notified::heard),
+        required("safe", &instance_notified::safe),
+        required("streams", &instance_notified::streams),
+        required("frames", &instance_notified::frames),
+        required("remark", &instance_notified::remark),
+        required("parameters_taken", &instance_notified::parameters_taken),
+        required("parameters_refused", &instance_notified::parameters_refused),
+        required("refusal", &instance_notified::refusal),
+        required("wanted_parameters", &instance_notified::wanted_parameters)};
   }
 };
 

@@ -22,6 +22,7 @@ constexpr row<std::string_view> value_rules[] = {
     {"hash", " hash "},
     {"hex_digits", " build_key nonce proof "},
     {"instance_id", " instance instances reserved "},
+    {"parameters", " parameters "},
     {"name", " cell coordinator name node nodes step target task "},
     {"node_state", " state "},
     {"server_id", " remote_id server_id "},

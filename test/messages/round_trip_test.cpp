@@ -55,7 +55,8 @@ bool has_least_form(const std::string& name) {
          && name != "task_update" && name != "skill_descriptor"
          && name != "plan_document" && name != "cell_formation"
          && name != "skill_added" && name != "skill_pulled"
-         && name != "exec_request";
+         && name != "exec_request" && name != "task_set_request"
+         && name != "parameter_change";
 }
 
 } // namespace

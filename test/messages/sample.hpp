@@ -55,6 +55,8 @@ private:
   static constexpr std::string_view name_of() {
     if constexpr (std::is_same_v<T, task_revision>)
       return "task_revision";
+    else if constexpr (std::is_same_v<T, task_set_row>)
+      return "task_set_row";
     else
       return type_of<T>::value;
   }
@@ -84,8 +86,9 @@ private:
   template <class T>
   std::enable_if_t<std::is_integral_v<T>> fill(T& x) {
     ++number_;
-    const bool small =
-        context_.second == "priority" || context_.second == "nice";
+    const bool small = context_.second == "priority"
+                       || context_.second == "nice"
+                       || context_.second == "copies";
     x = static_cast<T>(small ? 7 : number_);
   }
 
@@ -100,7 +103,12 @@ private:
   }
 
   void fill(std::map<std::string, std::string>& x) {
-    if (extent_ == extent::full)
+    if (extent_ != extent::full)
+      return;
+    // A secret has a name.
+    if (context_.second == "secret_env")
+      x = {{"key_1", "value_1"}};
+    else
       x = {{"key_1", "value 1"}, {"key_2", ""}};
   }
 

@@ -11,10 +11,12 @@
 #include "messages/insight/reach.hpp"
 #include "messages/insight/request_trace.hpp"
 #include "messages/kept_log.hpp"
+#include "messages/parameter_change.hpp"
 #include "messages/rebalance.hpp"
 #include "messages/reservation.hpp"
+#include "messages/secret.hpp"
 #include "messages/session.hpp"
-#include "messages/task_update.hpp"
+#include "messages/task_set.hpp"
 #include "messages/topic.hpp"
 #include "schemas/document.hpp"
 #include "test/messages/member_count.hpp"
@@ -108,7 +110,11 @@ std::vector<trial> message_trials() {
                skill_pull, skill_pulled, build_keeping, build_kept,
                build_release, build_released>(result);
   try_messages<task_update, task_update_plan, task_revisions_query,
-               task_revisions>(result);
+               task_revisions, task_set_request, task_set_plan,
+               parameter_change, parameters_changed, set_parameters,
+               parameters_set>(result);
+  try_messages<secret_setting, secret_set, secret_query, secret_list,
+               secret_removal, secret_removed>(result);
   try_messages<image_request, image_offered, image_query, image_known,
                image_sharing, image_shared>(result);
   try_messages<exec_request, exec_started, exec_input, exec_input_taken,
@@ -157,6 +163,7 @@ std::vector<trial> part_trials() {
       try_part<trace_hop>("trace_hop"),
       try_part<request_trace>("request_trace"),
       try_part<task_row>("task_row"),
+      try_part<task_set_row>("task_set_row"),
       try_part<allocation_score>("allocation_score"),
       try_part<resource_fractions>("resource_fractions"),
       try_part<step_allocation>("step_allocation"),

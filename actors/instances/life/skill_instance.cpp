@@ -185,6 +185,7 @@ skill_instance(skill_instance_pointer self,
       [self](const contact_proven& x) { on_contact(self, x); },
       [self](const contact_lost&) { on_contact_lost(self); },
       [self](const use_environment& x) { on_place(self, x); },
+      [self](const set_parameters& x) { return take_parameters(self, x); },
       [self](caf::tick_atom, uint64_t number) {
         if (self->state.timer.rings(number))
           on_alarm(self);

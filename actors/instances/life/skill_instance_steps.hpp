@@ -184,6 +184,10 @@ void build(skill_instance_pointer self);
 /// Where its cell is now, as far as its programs are concerned.
 void on_place(skill_instance_pointer self, const use_environment& place);
 
+/// Errors: see `skill_instance_actor`.
+caf::result<parameters_set> take_parameters(skill_instance_pointer self,
+                                            const set_parameters& request);
+
 /// Records the intent, builds, starts.
 void begin_anew(skill_instance_pointer self);
 

@@ -85,6 +85,10 @@ void add_cell_commands(request_registry& registry) {
       limits::task::restart, whom));
   registry.add(forward_within<task_update, task_update_plan>(
       limits::task::restart, whom));
+  registry.add(forward_within<task_set_request, task_set_plan>(
+      limits::task::restart, whom));
+  registry.add(forward_within<parameter_change, parameters_changed>(
+      limits::task::parameters, whom));
   registry.add(forward_within<node_drain, node_drained>(soon, whom));
   registry.add(forward_within<node_undrain, node_undrained>(soon, whom));
   registry.add(forward_within<skill_addition, skill_added>(

@@ -216,6 +216,9 @@ member_actor::behavior_type member(self_pointer self, session_admitted accepted,
       [self](const instance_removal& x) {
         return ask_node<instances_removed>(self, x, limits::task::removal);
       },
+      [self](const set_parameters& x) {
+        return ask_node<parameters_set>(self, x, limits::session::parameters);
+      },
       [self](const build_keeping& x) {
         return ask_node<build_kept>(self, x, limits::build::keeping_session);
       },
