@@ -17,8 +17,8 @@ PRODUCT = ['actors', 'client', 'dds', 'embedding', 'include', 'messages',
 # its state; a session begins as an HTTP request, and its probes share the
 # heartbeat's port; a codec is compiled with the families that are read by it.
 ONE_UNIT = [
-    {'actors/cell/moves', 'actors/cell/state', 'actors/cell/streams',
-     'actors/cell/tasks', 'actors/cell/updates'},
+    {'actors/cell/moves', 'actors/cell/sets', 'actors/cell/state',
+     'actors/cell/streams', 'actors/cell/tasks', 'actors/cell/updates'},
     {'actors/edge/http', 'actors/edge/reach', 'actors/edge/session'},
     {'messages/codec', 'messages/inside', 'messages/insight'},
 ]

@@ -73,6 +73,11 @@ void on_down(coordinator_pointer self, const caf::actor_addr& gone) {
   on_peer_down(self, gone);
 }
 
+void serve(coordinator_pointer self, const request_router_actor& router) {
+  self->state.router = router;
+  wake_for_sets(self);
+}
+
 /// A member's user is served like one of this node.
 caf::result<request_routed> answer_member(coordinator_pointer self,
                                           const route_request& request) {
@@ -111,6 +116,7 @@ json summary(coordinator_pointer self) {
           {"balancing", st.balancing},
           {"moves", st.moves.size()},
           {"updates", st.updates.size()},
+          {"sets", st.sets.size()},
           {"orders", st.orders.size()},
           {"unsafe", st.pending.not_stop_safe.size()},
           {"may_run", st.failures.count(self->clock().now())},
@@ -143,6 +149,7 @@ void on_tick(coordinator_pointer self, uint64_t number) {
   go_on_draining(self);
   settle_due_move(self);
   settle_due_updates(self);
+  settle_due_sets(self);
   balance_if_due(self);
   write_due_events(self);
   set_timer(self);
@@ -163,6 +170,7 @@ void begin(coordinator_pointer self, const actor_context& context,
   restore_orders(self);
   self->state.history.restore(self->state.setup.history);
   restore_drains(self);
+  restore_sets(self);
   abandon_steps_of_all(self);
   drop_unfinished_tasks(self);
   reconcile_own_node(self);
@@ -233,7 +241,7 @@ cell_coordinator(coordinator_pointer self, const actor_context& context,
       [self](const cell_rebalance& x) { return rebalance_cell(self, x); },
       [self](const transfer_query& x) { return describe_transfers(self, x); },
       [self](const route_request& x) { return answer_member(self, x); },
-      [self](const serve_members& x) { self->state.router = x.router; },
+      [self](const serve_members& x) { serve(self, x.router); },
       [self](const relay_request& x) { return relay_to_member(self, x); },
       [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
   };

@@ -169,6 +169,7 @@ caf::result<node_drained> drain_node(coordinator_pointer self,
         if (state.drains.add(record, self->clock().now()))
           state.context.publish_event(events::node_draining, record.node,
                                       {{"left", left_on(state, record.node)}});
+        look_at_sets(self);
         go_on_draining(self);
         promise.deliver(progress_of(state, *state.drains.find(record.uuid)));
       },
@@ -196,6 +197,7 @@ caf::result<node_undrained> undrain_node(coordinator_pointer self,
       [self, drains, node = request.node, promise]() mutable {
         for (const auto& x : drains)
           self->state.drains.forget(x.uuid);
+        look_at_sets(self);
         self->state.context.publish_event(events::node_undrained, node);
         promise.deliver(node_undrained{node});
       },

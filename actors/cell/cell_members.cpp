@@ -108,6 +108,7 @@ void on_registration_persisted(coordinator_pointer self,
   st.unassigned_nodes.registered(who);
   if (former_name != who.name)
     rename_node(self, former_name, who.name);
+  st.sets.forgive(who.name);
   publish(self, {who.uuid});
   st.context.publish_event(events::node_joined, who.name,
                            {{"uuid", who.uuid},
@@ -215,6 +216,7 @@ void measure_own_node(coordinator_pointer self) {
                 self->state.registry.find_uuid(self->state.setup.self.uuid);
             x.resources.name = own->row.identity.name;
             own->row.resources = std::move(x.resources);
+            look_at_sets(self);
           },
           [self](const caf::error& why) {
             self->state.context.publish_event(

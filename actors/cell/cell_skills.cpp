@@ -1,5 +1,6 @@
 #include "actors/cell/cell_members.hpp"
 
+#include "actors/cell/limits.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/core/skill_changes.hpp"
 #include "messages/event_kinds.hpp"
@@ -26,11 +27,30 @@ void try_waiting_steps(coordinator_pointer self) {
   wake(self);
 }
 
+/// A node tells of its skills when it has got other settings, too, and sets of
+/// tasks go by its labels. Meanwhile it may have gone.
+void ask_for_labels(coordinator_pointer self, const registry_entry& entry) {
+  if (self->state.sets.size() == 0 || !entry.agent)
+    return;
+  self->request(entry.agent, limits::resource::collection, resource_query{})
+      .then(
+          [self, uuid = entry.row.identity.uuid](const resource_report& x) {
+            if (auto* known = self->state.registry.find_uuid(uuid)) {
+              known->row.resources.labels = x.resources.labels;
+              look_at_sets(self);
+            }
+          },
+          // The next placement asks it again.
+          [](const caf::error&) {});
+}
+
 void take_skills(coordinator_pointer self, registry_entry& entry,
                  const skills_changed& now) {
   entry.skills = now.skills;
   entry.refused_skills = now.refused_skills;
   try_waiting_steps(self);
+  ask_for_labels(self, entry);
+  look_at_sets(self);
 }
 
 } // namespace

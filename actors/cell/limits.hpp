@@ -122,6 +122,11 @@ constexpr size_t former_request_bytes = 64 * 1024;
 /// Tasks at a time, whatever their state.
 constexpr size_t most = 1000;
 
+/// Sets of tasks, and how many of a set's tasks something is done for at a
+/// time: less than what may wait for the placement lock.
+constexpr size_t sets = 64;
+constexpr size_t set_work = 32;
+
 /// Tasks whose steps have all ended that are kept; the oldest go.
 constexpr size_t settled = 100;
 

@@ -188,6 +188,7 @@ void node_builder::start_coordination() {
   setup.transfers = data_.transfers;
   setup.history = data_.history;
   setup.drains = data_.drains;
+  setup.sets = data_.sets;
   setup.server_id = parts_.edges->server_id;
   setup.rebalance = config.rebalance;
   setup.ros_domain_id = config.ros_domain_id;

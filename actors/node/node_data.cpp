@@ -230,6 +230,8 @@ caf::error load_tables(const node_config& config, node_data& data) {
     return why;
   if (auto why = load_records(config, data, "builds", data.builds))
     return why;
+  if (auto why = load_records(config, data, "task_sets", data.sets))
+    return why;
   return load_records(config, data, "removed_builds", data.remains);
 }
 

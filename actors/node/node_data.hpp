@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/cell/sets/set_table.hpp"
 #include "actors/cell/tables/cell_builds.hpp"
 #include "actors/cell/tables/cell_registry.hpp"
 #include "actors/cell/tables/history_table.hpp"
@@ -48,6 +49,7 @@ struct node_data {
   std::vector<drain_record> drains;            ///< The same.
   std::vector<cell_build> builds;              ///< The same.
   std::vector<build_remains> remains;          ///< The same.
+  std::vector<task_set_record> sets;           ///< The same.
   std::vector<instance_row> instances;
   /// Where the node was when their programs were started, by instance.
   std::map<std::string, std::string> started_at;

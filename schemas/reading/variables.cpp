@@ -148,6 +148,15 @@ private:
     return result;
   }
 
+  /// Whether a name is one that the coordinator fills in, of a set of tasks or
+  /// of copies, and that the document does not use for a variable of its own.
+  bool is_left(const std::string& text, size_t at) const {
+    for (const auto* name : {"node", "copy"})
+      if (text.compare(at, 5, std::string{name} + "}") == 0)
+        return values_.find(name) == values_.end();
+    return false;
+  }
+
   /// The name that begins behind `${` at `at`, and where its text goes on.
   const json* value_at(const std::string& text, size_t at, size_t& next,
                        const std::string& where) {
@@ -190,7 +199,7 @@ private:
       const bool is_plain = found > at && text[found - 1] == '$';
       result.append(text, at, found - at - (is_plain ? 1 : 0));
       at = found + opening.size();
-      if (is_plain) {
+      if (is_plain || is_left(text, at)) {
         result += opening;
         continue;
       }

@@ -34,7 +34,8 @@ struct given_values {
 /// value has to be given; it is not in the result. `${name}` in a text of the
 /// rest stands for the value of `name`: a text that is nothing else becomes the
 /// value, a number stays a number; inside of a text it is written out. `$${`
-/// stands for `${`. A document without `variables` stays as it is. Values are
+/// stands for `${`. `${node}` and `${copy}` stay where no variable has that
+/// name: a coordinator fills them in. A document without `variables` stays as it is. Values are
 /// not filled in themselves.
 ///
 /// Errors: schema_violation (an unknown or bad name, no value or one of another

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/cell/moves/move_table.hpp"
+#include "actors/cell/sets/set_table.hpp"
 #include "actors/cell/streams/stream_watch.hpp"
 #include "actors/cell/tables/cell_builds.hpp"
 #include "actors/cell/tables/cell_registry.hpp"
@@ -60,6 +61,7 @@ struct coordinator_setup {
   std::vector<drain_record> drains;    ///< The same.
   std::vector<cell_build> builds;      ///< The same.
   std::vector<build_remains> remains;  ///< The same.
+  std::vector<task_set_record> sets;   ///< The same.
   /// What instances of this cell find in their environment.
   std::map<std::string, std::string> environment;
   /// Towards other coordinators and nodes in no cell; all invalid in a cell
@@ -102,6 +104,7 @@ struct cell_coordinator_state {
   ordered_ends orders;
   move_table moves;
   update_table updates;
+  set_table sets;
   /// What the messages of each update carry along, by its id in the table.
   std::map<uint64_t, std::shared_ptr<update_run>> update_runs;
   drain_table drains;

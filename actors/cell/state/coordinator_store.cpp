@@ -77,6 +77,7 @@ void publish(coordinator_pointer self,
   st.peers.for_each_session([&](const std::string&, const peer_entry& peer) {
     self->send(peer.actor, change);
   });
+  look_at_sets(self);
 }
 
 void drop_row(coordinator_pointer self, const std::string& uuid) {

@@ -14,20 +14,31 @@ void set_timer(coordinator_pointer self) {
   const auto balance = st.balancing > 0 ? time_point::max() : st.balance_due;
   const auto next_peer =
       st.setup.connector ? st.peers.next_due() : time_point::max();
-  const auto when = std::min(
-      {st.registry.next_overdue(), st.transfers.next_deadline(),
-       st.slots.next_deadline(), next_peer, next_proof(st),
-       next_change_retry(st.pending), next_end_of_remains(st.pending),
-       st.pending.removals.next_due(), st.failures.next_due(),
-       st.orders.next_due(), st.deadlines.next_due(),
-       next_safety_deadline(st.pending), st.drains.next_due(),
-       st.rebalance.next_due(), st.updates.next_due(), st.events_due, balance});
+  const auto when =
+      std::min({st.registry.next_overdue(), st.transfers.next_deadline(),
+                st.slots.next_deadline(), next_peer, next_proof(st),
+                next_change_retry(st.pending), next_end_of_remains(st.pending),
+                st.pending.removals.next_due(), st.failures.next_due(),
+                st.orders.next_due(), st.deadlines.next_due(),
+                next_safety_deadline(st.pending), st.drains.next_due(),
+                st.rebalance.next_due(), st.updates.next_due(),
+                st.sets.next_due(), st.events_due, balance});
   if (when != time_point::max())
     st.timer.set(self, when);
 }
 
 void wake(coordinator_pointer self) {
   self->send(cell_coordinator_actor{self}, caf::tick_atom_v, at_once);
+}
+
+void look_at_sets(coordinator_pointer self) {
+  if (self->state.sets.size() > 0)
+    wake_for_sets(self);
+}
+
+void wake_for_sets(coordinator_pointer self) {
+  if (self->state.sets.hurry(self->clock().now()))
+    wake(self);
 }
 
 void arm_balance(coordinator_pointer self) {

@@ -7,6 +7,18 @@
 
 namespace roscell {
 
+std::string set_of(const std::string& request) {
+  // Few are of one, and a request may be long.
+  if (request.find("\"set\":") == std::string::npos)
+    return {};
+  const auto body = json::parse(request, nullptr, false);
+  if (!body.is_object())
+    return {};
+  const auto found = body.find("set");
+  return found != body.end() && found->is_string() ? found->get<std::string>()
+                                                   : std::string{};
+}
+
 const task_entry* task_table::find(const std::string& task) const {
   const auto i = entries_.find(task);
   return i == entries_.end() ? nullptr : &i->second;
@@ -107,7 +119,8 @@ bool task_table::is_kept(const std::string& task) const {
 std::vector<std::string> task_table::superfluous() const {
   std::vector<std::pair<int64_t, std::string>> settled;
   for (const auto& [task, entry] : entries_)
-    if (is_settled(entry.state) && !entry.ending)
+    if (is_settled(entry.state) && !entry.ending
+        && set_of(entry.request).empty())
       settled.emplace_back(entry.submitted_unix_ms, task);
   std::sort(settled.begin(), settled.end());
   std::vector<std::string> result;

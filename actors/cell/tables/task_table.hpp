@@ -171,7 +171,8 @@ public:
   /// Whether nodes keep its instances.
   bool is_kept(const std::string& task) const;
 
-  /// Settled tasks beyond the limit, the oldest first.
+  /// Settled tasks beyond the limit, the oldest first. Those of a set stay: it
+  /// would start them once more.
   std::vector<std::string> superfluous() const;
 
   void remember_terminated(const task_terminated& reply);
@@ -185,6 +186,9 @@ private:
   std::map<std::string, task_entry> entries_;
   std::deque<task_terminated> terminated_;
 };
+
+/// The set of tasks that a request says its task is one of; empty: none.
+std::string set_of(const std::string& request);
 
 /// True for a task whose steps have all ended.
 constexpr bool is_settled(task_state x) {

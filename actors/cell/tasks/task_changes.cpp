@@ -61,6 +61,7 @@ void on_change_persisted(coordinator_pointer self, const std::string& task,
   }
   follow_deadline(self, task);
   follow_orders(self, task, record ? *record : task_record{});
+  look_at_sets(self);
   end_change(self, task, {});
 }
 

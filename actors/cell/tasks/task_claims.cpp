@@ -1,6 +1,7 @@
 #include "actors/cell/tasks/cell_tasks.hpp"
 
 #include "actors/cell/limits.hpp"
+#include "actors/cell/sets/cell_sets.hpp"
 #include "actors/cell/state/may_start.hpp"
 #include "actors/cell/tasks/placement_locks.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
@@ -75,7 +76,9 @@ bool answer_known(coordinator_pointer self, const claim_task& request,
                                    request.replace)) {
   case claim_status::unknown:
   case claim_status::next_run: {
-    const auto why = remains_of(self, task, request.force);
+    auto why = why_not_of_set(st, task, request.request);
+    if (!why)
+      why = remains_of(self, task, request.force);
     if (why)
       promise.deliver(to_error(*why));
     return why.has_value();

@@ -1,6 +1,7 @@
 #include "actors/cell/tasks/task_endings.hpp"
 
 #include "actors/cell/limits.hpp"
+#include "actors/cell/sets/cell_sets.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/may_start.hpp"
@@ -184,10 +185,24 @@ caf::error terminated_meanwhile(const std::string& task) {
               "task '" + task + "' was terminated meanwhile", "/task");
 }
 
+namespace {
+
+/// Sets, releases and transfers end tasks, too: they ask as this actor.
+bool is_asked_from_outside(coordinator_pointer self) {
+  return caf::actor_cast<caf::actor_addr>(self->current_sender())
+         != self->address();
+}
+
+} // namespace
+
 caf::result<task_terminated> terminate_task(coordinator_pointer self,
                                             const task_termination& request) {
   auto& st = self->state;
   const auto& task = request.task;
+  if (st.sets.find(task))
+    return remove_set(self, request);
+  if (is_asked_from_outside(self))
+    note_stopped_by_user(self, task);
   if (!st.tasks.find(task)) {
     if (const auto* ended = st.tasks.find_terminated(task))
       return *ended;
@@ -227,6 +242,7 @@ void take_back(coordinator_pointer self, const std::string& task,
     persist_record(self, record_of_remains(self, task));
   st.tasks.forget(task);
   st.deployments.forget_task(task);
+  look_at_sets(self);
   if (!former)
     return;
   st.tasks.take_back(*former);

@@ -2,6 +2,7 @@
 
 #include "actors/cell/moves/abandoned_steps.hpp"
 #include "actors/cell/moves/moved_steps.hpp"
+#include "actors/cell/sets/cell_sets.hpp"
 #include "actors/cell/streams/cell_streams.hpp"
 #include "messages/failure.hpp"
 
@@ -48,8 +49,10 @@ bool is_healthy(const cell_coordinator_state& st, const deployment& x) {
          && is_present(st, x.node);
 }
 
-task_state state_now(const cell_coordinator_state& st, const std::string& task,
-                     const task_entry& entry) {
+} // namespace
+
+task_state state_of_task(const cell_coordinator_state& st,
+                         const std::string& task, const task_entry& entry) {
   if (entry.ending)
     return task_state::terminating;
   const auto& steps = st.deployments.of_task(task);
@@ -59,6 +62,8 @@ task_state state_now(const cell_coordinator_state& st, const std::string& task,
   return entry.state == task_state::running && !is_well ? task_state::degraded
                                                         : entry.state;
 }
+
+namespace {
 
 /// The labels of a task, which its request has.
 std::map<std::string, std::string> task_labels(const task_entry& entry) {
@@ -72,7 +77,7 @@ std::map<std::string, std::string> task_labels(const task_entry& entry) {
 task_row describe_task(const cell_coordinator_state& st,
                        const std::string& task, const task_entry& entry) {
   task_row result{task,
-                  state_now(st, task, entry),
+                  state_of_task(st, task, entry),
                   entry.submitted_unix_ms,
                   entry.ended_unix_ms,
                   {},
@@ -81,7 +86,8 @@ task_row describe_task(const cell_coordinator_state& st,
                   entry.revisions.revision,
                   st.updates.text(task),
                   entry.update.problem,
-                  task_labels(entry)};
+                  task_labels(entry),
+                  set_of(entry.request)};
   for (const auto& x : st.deployments.of_task(task))
     result.instances.push_back(shown(st, st.deployments.row_of(x)));
   sort_by_flow(result.instances);
@@ -133,7 +139,7 @@ task_accepted status_reply(const cell_coordinator_state& st,
                            const std::string& task) {
   const auto& entry = *st.tasks.find(task);
   auto result = reply_of(task, entry, st.deployments);
-  result.found = found_as(state_now(st, task, entry));
+  result.found = found_as(state_of_task(st, task, entry));
   if (result.found != task_found::degraded)
     return result;
   for (const auto& x : st.deployments.of_task(task))
@@ -151,24 +157,49 @@ std::vector<task_row> describe_all_tasks(const cell_coordinator_state& st) {
   return result;
 }
 
+namespace {
+
+std::vector<task_set_row> describe_all_sets(const cell_coordinator_state& st) {
+  std::vector<task_set_row> result;
+  for (const auto& set : st.sets.names())
+    result.push_back(describe_set(st, set));
+  return result;
+}
+
+/// Its request, too, from which it can be made anew.
+task_description describe_tasks_of_set(const cell_coordinator_state& st,
+                                       const std::string& set) {
+  task_description result;
+  for (const auto& [task, entry] : st.tasks.entries())
+    if (is_shown(entry) && set_of(entry.request) == set)
+      result.tasks.push_back(describe_task(st, task, entry));
+  result.sets.push_back(describe_set(st, set));
+  result.sets.back().request = st.sets.find(set)->record.request;
+  return result;
+}
+
+} // namespace
+
 std::vector<task_count> count_tasks(const cell_coordinator_state& st) {
   std::vector<task_count> result(enum_words(task_state{}).size());
   for (size_t i = 0; i < result.size(); ++i)
     result[i].state = static_cast<task_state>(i);
   for (const auto& [task, entry] : st.tasks.entries())
     if (is_shown(entry))
-      ++result[static_cast<size_t>(state_now(st, task, entry))].tasks;
+      ++result[static_cast<size_t>(state_of_task(st, task, entry))].tasks;
   return result;
 }
 
 caf::result<task_description> describe_tasks(const cell_coordinator_state& st,
                                              const task_query& query) {
   if (query.task.empty())
-    return task_description{describe_all_tasks(st)};
+    return task_description{describe_all_tasks(st), describe_all_sets(st)};
+  if (st.sets.find(query.task))
+    return describe_tasks_of_set(st, query.task);
   const auto* entry = st.tasks.find(query.task);
   if (!entry || !is_shown(*entry))
     return unknown_thing("task", query.task);
-  return task_description{{describe_task(st, query.task, *entry)}};
+  return task_description{{describe_task(st, query.task, *entry)}, {}};
 }
 
 std::vector<registry_row> describe_nodes(const cell_coordinator_state& st) {

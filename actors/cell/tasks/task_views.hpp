@@ -25,6 +25,10 @@ describe_instances(const cell_coordinator_state& st,
 task_accepted status_reply(const cell_coordinator_state& st,
                            const std::string& task);
 
+/// The state of a task as its instances are now.
+task_state state_of_task(const cell_coordinator_state& st,
+                         const std::string& task, const task_entry& entry);
+
 /// How many tasks are in each state.
 std::vector<task_count> count_tasks(const cell_coordinator_state& st);
 

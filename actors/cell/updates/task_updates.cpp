@@ -9,6 +9,7 @@
 #include "actors/cell/updates/update_guard.hpp"
 #include "actors/cell/updates/update_run.hpp"
 #include "actors/core/clocks.hpp"
+#include "actors/placement/reading/step_copies.hpp"
 #include "actors/placement/reading/task_reading.hpp"
 #include "messages/event_kinds.hpp"
 
@@ -21,13 +22,15 @@ namespace {
 
 using plan_promise = caf::typed_response_promise<task_update_plan>;
 
-task_request request_in(const task_update& asked) {
+task_request request_in(const task_update& asked,
+                        std::vector<task_step> pipeline) {
   task_request result;
   result.task = asked.task;
-  result.pipeline = asked.pipeline;
+  result.pipeline = std::move(pipeline);
   result.timeout_s = asked.timeout_s;
   result.labels = asked.labels;
   result.update = asked.update;
+  result.set = asked.set;
   return result;
 }
 
@@ -148,9 +151,13 @@ caf::result<task_update_plan> update_task(coordinator_pointer self,
   const auto* entry = st.tasks.find(request.task);
   if (!entry)
     return unknown_thing("task", request.task);
+  auto steps = with_copies(request.pipeline);
+  if (auto* why = std::get_if<failure>(&steps))
+    return to_error(*why);
   auto run = std::make_shared<update_run>();
   run->asked = request;
-  run->request = request_in(request);
+  run->request =
+      request_in(request, std::get<std::vector<task_step>>(std::move(steps)));
   run->body = body_of(run->request);
   // The same once more hears the same.
   if (const auto* known = st.updates.find_plan(request.task, run->body))

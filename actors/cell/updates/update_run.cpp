@@ -134,6 +134,7 @@ void end_update(coordinator_pointer self, const update_ptr& run) {
     release_placement_lock(self, lock);
   self->state.updates.end(run->id);
   self->state.update_runs.erase(run->id);
+  look_at_sets(self);
 }
 
 } // namespace roscell

@@ -106,10 +106,16 @@ void on_tick(watcher_pointer self, uint64_t number) {
   set_timer(self);
 }
 
+/// It is told again even where no skill has changed: whoever hears of it asks
+/// what else the node has become, such as its labels.
 void take_places(watcher_pointer self, const use_settings& settings) {
-  auto& named = self->state.config.places.named;
+  auto& st = self->state;
+  auto& named = st.config.places.named;
   named.assign(settings.skill_dirs.begin(), settings.skill_dirs.end());
+  const auto before = st.reported;
   read_folders(self, true);
+  if (st.reported == before)
+    self->send(st.config.listener, st.reported);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "actors/placement/questions/task_allocation.hpp"
 
 #include "actors/placement/questions/search_problem.hpp"
+#include "actors/placement/reading/step_copies.hpp"
 #include "actors/placement/reading/task_reading.hpp"
 #include "actors/placement/search/allocation.hpp"
 #include "actors/placement/search/report/explain.hpp"
@@ -240,8 +241,12 @@ std::variant<task_plan, failure> allocate_offline(const plan_document& document,
       row.nodes.push_back(node.name);
     known.skills.push_back(std::move(row));
   }
-  auto reading = read_task(document.request.task, document.request.pipeline,
-                           {known, {}, {}}, "/request/pipeline");
+  auto steps = with_copies(document.request.pipeline, "/request/pipeline");
+  if (auto* problem = std::get_if<failure>(&steps))
+    return std::move(*problem);
+  auto reading =
+      read_task(document.request.task, std::get<std::vector<task_step>>(steps),
+                {known, {}, {}}, "/request/pipeline");
   if (auto* problem = std::get_if<failure>(&reading))
     return std::move(*problem);
   auto& meant = std::get<task_reading>(reading);

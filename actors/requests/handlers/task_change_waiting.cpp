@@ -43,7 +43,8 @@ void on_task(waiter_pointer self, task_description known) {
   st.asking = false;
   auto mark = mark_of(known);
   if (mark != st.query.known || st.over) {
-    st.promise.deliver(task_change{std::move(mark), std::move(known.tasks)});
+    st.promise.deliver(task_change{std::move(mark), std::move(known.tasks),
+                                   std::move(known.sets)});
     return self->quit();
   }
   if (std::exchange(st.again, false))
@@ -153,6 +154,12 @@ std::string mark_of(const task_description& task) {
     for (const auto& x : row.instances)
       text += '\n' + x.spec.instance + '\t' + x.node + '\t'
               + std::string{to_string(x.state)} + '\t' + x.reason;
+  }
+  for (const auto& row : task.sets) {
+    text += "\n" + std::to_string(row.nodes) + '\t'
+            + std::to_string(row.running) + '\t' + std::to_string(row.pending);
+    for (const auto& x : row.problems)
+      text += '\n' + x.node + '\t' + x.reason;
   }
   return std::to_string(std::hash<std::string>{}(text));
 }

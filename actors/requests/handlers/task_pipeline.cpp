@@ -5,6 +5,7 @@
 #include "actors/core/watching.hpp"
 #include "actors/placement/instance_specs.hpp"
 #include "actors/placement/limits.hpp"
+#include "actors/placement/reading/step_copies.hpp"
 #include "actors/placement/reading/task_reading.hpp"
 #include "actors/placement/reading/wiring.hpp"
 #include "actors/requests/limits.hpp"
@@ -64,6 +65,10 @@ std::optional<failure> think_otherwise(const what_if& other,
 
 void claim(const request_context& context, task_request request,
            outcome<claimed_task> done) {
+  auto steps = with_copies(request.pipeline);
+  if (auto* why = std::get_if<failure>(&steps))
+    return done.fail(std::move(*why));
+  request.pipeline = std::get<std::vector<task_step>>(std::move(steps));
   claim_task claim_request{request.task, body_of(request), request.request_id,
                            request.force, request.replace};
   // Without the coordinator nobody wants what is deployed.
@@ -80,6 +85,10 @@ void claim(const request_context& context, task_request request,
 
 void adopt_plan_query(const request_context& context, task_plan_query query,
                       outcome<claimed_task> done) {
+  auto steps = with_copies(query.pipeline);
+  if (auto* why = std::get_if<failure>(&steps))
+    return done.fail(std::move(*why));
+  query.pipeline = std::get<std::vector<task_step>>(std::move(steps));
   ask<cell_resources>(
       context, context.services->coordinator, limits::local::answer,
       collect_resources{}, done, [done, query](cell_resources cell) {

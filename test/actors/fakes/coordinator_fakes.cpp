@@ -347,6 +347,8 @@ void paper_cell::begin_anew() {
     how.drains.push_back(record.get<drain_record>());
   for (const auto& [hash, record] : builds)
     how.builds.push_back(record.get<cell_build>());
+  for (const auto& [name, record] : sets)
+    how.sets.push_back(record.get<task_set_record>());
   for (const auto& [hash, record] : remains)
     how.remains.push_back(record.get<build_remains>());
   start_parts(how);
@@ -363,6 +365,7 @@ void paper_cell::start_parts(const coordinator_setup& how) {
   router = spawn(time.system, context, request_router,
                  std::make_shared<const request_registry>(make_registry(true)),
                  std::shared_ptr<const node_services>(services));
+  caf::anon_send(coordinator, serve_members{router});
   time.settle();
 }
 
@@ -499,6 +502,7 @@ void paper_cell::write(const store_record& x) {
                 : x.table == "drains"         ? &drains
                 : x.table == "members"        ? &members
                 : x.table == "builds"         ? &builds
+                : x.table == "task_sets"      ? &sets
                 : x.table == "removed_builds" ? &remains
                                               : nullptr;
   if (table == nullptr)

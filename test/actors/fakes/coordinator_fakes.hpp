@@ -103,6 +103,7 @@ struct paper_cell {
   std::map<std::string, json> drains;  ///< of that one,
   std::map<std::string, json> members; ///< of that one,
   std::map<std::string, json> builds;  ///< of that one,
+  std::map<std::string, json> sets;    ///< of "task_sets",
   std::map<std::string, json> remains; ///< and of "removed_builds".
   /// What the coordination node's keeper says that builds are, by hash.
   std::map<std::string, installed_skill> kept_builds;

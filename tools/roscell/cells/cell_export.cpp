@@ -1,6 +1,7 @@
 #include "tools/roscell/cells/cell_export.hpp"
 
 #include "actors/builds/limits.hpp"
+#include "actors/edge/http/http_target.hpp"
 #include "messages/task_update.hpp"
 #include "tools/roscell/cells/cell_plan.hpp"
 #include "tools/roscell/exit_code.hpp"
@@ -34,6 +35,17 @@ task_file request_of(const node_client& node, const std::string& task) {
   if (!result.document.is_object())
     throw command_error{exit_refused, "the request of task '" + printable(task)
                                           + "' cannot be read any more"};
+  return result;
+}
+
+task_file request_of_set(const node_client& node, const std::string& set) {
+  const auto known =
+      node.get("/v1/tasks/" + percent_encode(set)).get<task_description>();
+  if (known.sets.empty())
+    throw command_error{exit_refused, "the cell does not have the set '"
+                                          + printable(set) + "' any more"};
+  task_file result;
+  result.document = json::parse(known.sets.front().request, nullptr, false);
   return result;
 }
 
@@ -93,8 +105,10 @@ cell_document document_of_cell(const node_client& node) {
   for (const auto& x : known.skills.builds)
     result.skills.push_back({x.skill.descriptor.operation, x.build.hash, ""});
   for (const auto& x : known.cell.tasks)
-    if (goes_on(x))
+    if (goes_on(x) && x.set.empty())
       result.tasks.push_back(request_of(node, x.task));
+  for (const auto& x : known.sets)
+    result.tasks.push_back(request_of_set(node, x.task));
   return result;
 }
 

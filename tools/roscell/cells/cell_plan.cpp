@@ -103,12 +103,18 @@ void plan_tasks(const cell_options& options, const node_client& node,
     plan.tasks.push_back({file, plan_of(options, node, file, plan)});
   if (!options.prune)
     return;
-  for (const auto& x : known.cell.tasks)
+  const auto end_unwanted = [&](const std::string& task) {
     if (std::none_of(wanted.tasks.begin(), wanted.tasks.end(),
                      [&](const auto& file) {
-                       return file.request().value("task", "") == x.task;
+                       return file.request().value("task", "") == task;
                      }))
-      plan.ended.push_back(x.task);
+      plan.ended.push_back(task);
+  };
+  for (const auto& x : known.cell.tasks)
+    if (x.set.empty())
+      end_unwanted(x.task);
+  for (const auto& x : known.sets)
+    end_unwanted(x.task);
 }
 
 bool does_differ(const planned_task& x) {
@@ -130,7 +136,8 @@ json skills_json(const std::vector<wanted_skill>& skills) {
 
 present_cell look_at_cell(const node_client& node) {
   return {node.get("/v1/cell").get<cell_description>(),
-          node.get("/v1/skills").get<skill_list>()};
+          node.get("/v1/skills").get<skill_list>(),
+          node.get("/v1/tasks").get<task_description>().sets};
 }
 
 bool cell_plan::differs() const {
@@ -168,11 +175,9 @@ std::string cell_plan_view(const cell_plan& plan, const text_style& style) {
   for (const auto& x : plan.tasks) {
     if (!does_differ(x))
       continue;
-    if (!x.shown || x.shown->is_new)
-      add("task", x.file.request().value("task", ""), "starts");
-    else
-      add("task", x.shown->plan.task, "changes");
-    if (x.shown)
+    const auto name = x.file.request().value("task", "");
+    add("task", name, !x.shown || x.shown->is_new ? "starts" : "changes");
+    if (x.shown && !x.shown->set)
       changing.push_back(x.shown->plan);
   }
   for (const auto& x : plan.ended)
@@ -195,7 +200,8 @@ json cell_plan_json(const cell_plan& plan) {
     json task{{"task", x.file.request().value("task", "")},
               {"differs", does_differ(x)}};
     if (x.shown)
-      task["plan"] = message_json(x.shown->plan);
+      task["plan"] = x.shown->set ? message_json(*x.shown->set)
+                                  : message_json(x.shown->plan);
     result["tasks"].push_back(std::move(task));
   }
   return result;

@@ -24,6 +24,7 @@ struct cell_options : apply_options {
 struct present_cell {
   cell_description cell;
   skill_list skills;
+  std::vector<task_set_row> sets;
 };
 
 present_cell look_at_cell(const node_client& node);

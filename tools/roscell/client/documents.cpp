@@ -103,7 +103,8 @@ void complete_paper_node(json& node) {
 json task_file::request() const {
   auto result = request_at.empty() ? document : document.at("request");
   if (result.is_object())
-    result["type"] = "task_request";
+    result["type"] =
+        result.contains("for_each") ? "task_set_request" : "task_request";
   return result;
 }
 

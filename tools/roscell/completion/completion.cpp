@@ -193,6 +193,7 @@ constexpr name_source name_sources[] = {
     {"nodes", "/v1/cell", "", "free", "/name"},
     {"cells", "/v1/cells", "", "cells", "/cell"},
     {"tasks", "/v1/tasks", "", "tasks", "/task"},
+    {"tasks", "/v1/tasks", "", "sets", "/task"},
     {"instances", "/v1/instances", "", "instances", "/spec/instance"},
     {"actors", "/v1/node?actors=1", "", "actors", "/name"},
     {"transfers", "/v1/requests", transfers_asked, "transfers", "/transfer"},

@@ -1,3 +1,4 @@
+#include "actors/edge/http/http_target.hpp"
 #include "schemas/message_catalogue.hpp"
 #include "tools/roscell/client/documents.hpp"
 #include "tools/roscell/commands.hpp"
@@ -78,6 +79,18 @@ std::pair<std::string, std::string> label_in(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+/// A set in place of its tasks, with their labels.
+task_row as_task(const node_client& node, const task_set_row& set) {
+  const auto known =
+      node.get("/v1/tasks/" + percent_encode(set.task)).get<task_description>();
+  task_row result;
+  result.task = set.task;
+  if (!known.sets.empty())
+    result.labels =
+        json::parse(known.sets.front().request).get<task_set_request>().labels;
+  return result;
+}
+
 /// Tasks of the cell that have the label and are in no file.
 std::vector<task_row> to_be_pruned(const apply_command_options& options,
                                    const node_client& node,
@@ -85,16 +98,24 @@ std::vector<task_row> to_be_pruned(const apply_command_options& options,
   if (options.prune.empty())
     return {};
   const auto [name, value] = label_in(options.prune);
-  auto tasks = node.get("/v1/tasks").get<task_description>().tasks;
-  const auto stays = [&, name = name, value = value](const task_row& x) {
+  const auto known = node.get("/v1/tasks").get<task_description>();
+  std::vector<task_row> result;
+  const auto add = [&, name = name, value = value](const task_row& x) {
     const auto label = x.labels.find(name);
-    return label == x.labels.end() || label->second != value
-           || std::any_of(files.begin(), files.end(), [&](const auto& file) {
-                return file.request().value("task", "") == x.task;
-              });
+    const bool stays =
+        label == x.labels.end() || label->second != value
+        || std::any_of(files.begin(), files.end(), [&](const auto& file) {
+             return file.request().value("task", "") == x.task;
+           });
+    if (!stays)
+      result.push_back(x);
   };
-  tasks.erase(std::remove_if(tasks.begin(), tasks.end(), stays), tasks.end());
-  return tasks;
+  for (const auto& x : known.tasks)
+    if (x.set.empty())
+      add(x);
+  for (const auto& x : known.sets)
+    add(as_task(node, x));
+  return result;
 }
 
 task_update_plan plan_of_pruned(const task_row& x) {
@@ -118,6 +139,9 @@ std::string plural(size_t count, const char* what) {
 
 /// What has become of a task, in a line.
 std::string done_text(const task_plan_shown& x) {
+  if (x.set)
+    return "set '" + printable(x.set->task) + "' "
+           + (x.differs() ? "is as the file says" : "is as it is to be");
   const auto task = "task '" + printable(x.plan.task) + "' ";
   if (x.is_new)
     return task + "runs";
@@ -156,10 +180,19 @@ struct apply_work {
   std::vector<applied_task> tasks;
   std::vector<task_row> pruned;
 
+  std::vector<task_set_plan> sets() const {
+    std::vector<task_set_plan> result;
+    for (const auto& x : tasks)
+      if (x.shown.set && x.shown.differs())
+        result.push_back(*x.shown.set);
+    return result;
+  }
+
   std::vector<task_update_plan> plans() const {
     std::vector<task_update_plan> result;
     for (const auto& x : tasks)
-      result.push_back(x.shown.plan);
+      if (!x.shown.set)
+        result.push_back(x.shown.plan);
     for (const auto& x : pruned)
       result.push_back(plan_of_pruned(x));
     return result;
@@ -191,13 +224,17 @@ void print_plans(const apply_command_options& options, const apply_work& work) {
     auto documents = json::array();
     for (const auto& x : plans)
       documents.push_back(message_json(x));
+    for (const auto& x : work.tasks)
+      if (x.shown.set)
+        documents.push_back(message_json(*x.shown.set));
     return print(pretty(documents));
   }
   for (const auto& x : plans)
     for (const auto& warning : x.warnings)
       print_note("warning: " + printable(warning));
   if (work.differs())
-    print(differences_view(plans));
+    print(differences_view(plans)
+          + set_changes_view(work.sets(), stdout_style()));
 }
 
 /// In the order of the files; what is not wanted any more goes last. The first

@@ -1,3 +1,5 @@
+#include "actors/cell/sets/set_template.hpp"
+#include "actors/placement/reading/step_copies.hpp"
 #include "actors/placement/reading/task_reading.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
@@ -107,10 +109,31 @@ task_reading read_request(const task_file& file, const task_request& request,
   return std::get<task_reading>(std::move(reading));
 }
 
+/// The request with its copies; of a set that of a node which is thought of.
+task_request meant_request(const task_file& file) {
+  const auto document = file.request();
+  std::variant<task_request, failure> result;
+  if (document.value("type", "") == task_set_request::type) {
+    result = task_for(document.get<task_set_request>(), "node");
+  } else {
+    auto request = document.get<task_request>();
+    auto steps = with_copies(request.pipeline);
+    if (auto* why = std::get_if<failure>(&steps))
+      result = std::move(*why);
+    else
+      request.pipeline = std::get<std::vector<task_step>>(std::move(steps));
+    if (std::holds_alternative<task_request>(result))
+      result = std::move(request);
+  }
+  if (auto* why = std::get_if<failure>(&result))
+    throw wrong_document{file, within(std::move(*why), file.request_at)};
+  return std::get<task_request>(std::move(result));
+}
+
 int check(const check_options& options) {
   const auto file = read_task_file(options.file, options.values);
   check_form(file);
-  const auto request = file.request().get<task_request>();
+  const auto request = meant_request(file);
   const auto context = context_of(options, file);
   if (!context) {
     print_note("the form is right; no node of this host answers: say where its "

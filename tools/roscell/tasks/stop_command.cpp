@@ -36,6 +36,16 @@ void add_once(std::vector<std::string>& to, const std::string& name) {
     to.push_back(name);
 }
 
+/// A set ends with all its tasks, so it comes before them.
+std::vector<std::string> known_names(const task_description& known) {
+  std::vector<std::string> result;
+  for (const auto& x : known.sets)
+    result.push_back(x.task);
+  for (const auto& x : known.tasks)
+    result.push_back(x.task);
+  return result;
+}
+
 /// The tasks that are meant, each once. A name that is no pattern need not be
 /// that of a task: that is for the coordinator to say.
 std::vector<std::string> tasks_meant(const node_client& node,
@@ -50,9 +60,9 @@ std::vector<std::string> tasks_meant(const node_client& node,
       continue;
     }
     bool matched = false;
-    for (const auto& x : known.tasks)
-      if (fnmatch(name.c_str(), x.task.c_str(), 0) == 0) {
-        add_once(result, x.task);
+    for (const auto& x : known_names(known))
+      if (fnmatch(name.c_str(), x.c_str(), 0) == 0) {
+        add_once(result, x);
         matched = true;
       }
     if (!matched)

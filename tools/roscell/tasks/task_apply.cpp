@@ -5,6 +5,7 @@
 #include "tools/roscell/client/progress.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/tasks/set_apply.hpp"
 #include "tools/roscell/view/event_text.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
@@ -88,18 +89,6 @@ void start_task(const apply_options& options, const node_client& node,
                  false);
 }
 
-/// What is known of the task once it is another than `known`, or after a while.
-task_change next_change(const node_client& node, const std::string& task,
-                        const std::string& known, clock::time_point until) {
-  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
-      until - clock::now());
-  task_change_query query{task, known, 0};
-  query.wait_ms =
-      std::clamp(left, std::chrono::milliseconds{0}, longest_wait).count();
-  return ask_node(node, message_json(query), longest_wait * 2)
-      .get<task_change>();
-}
-
 command_error still_going(const task_row& row, const std::string& limit) {
   return {exit_refused,
           "task '" + printable(row.task) + "' is not updated after " + limit
@@ -151,6 +140,18 @@ void make_update(const apply_options& options, const node_client& node,
 
 } // namespace
 
+task_change next_change(const node_client& node, const std::string& task,
+                        const std::string& known,
+                        std::chrono::steady_clock::time_point until) {
+  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+      until - clock::now());
+  task_change_query query{task, known, 0};
+  query.wait_ms =
+      std::clamp(left, std::chrono::milliseconds{0}, longest_wait).count();
+  return ask_node(node, message_json(query), longest_wait * 2)
+      .get<task_change>();
+}
+
 void add_apply_options(CLI::App& command, apply_options& options) {
   command.add_flag("--dry-run", options.dry_run,
                    "Only show what would be done; exit code 1: something "
@@ -168,6 +169,8 @@ void add_request_id(json& request) {
 }
 
 bool task_plan_shown::differs() const {
+  if (set)
+    return set->outcome != update_outcome::unchanged;
   return is_new
          || (plan.outcome != update_outcome::unchanged
              && plan.outcome != update_outcome::ended);
@@ -177,6 +180,11 @@ task_plan_shown plan_apply(const apply_options& options,
                            const node_client& node, const json& request) {
   task_plan_shown result;
   result.request = request;
+  if (is_set(request)) {
+    result.set = plan_set(options, node, request);
+    result.is_new = result.set->is_new;
+    return result;
+  }
   auto update = update_of(options, request);
   update["dry_run"] = true;
   try {
@@ -192,6 +200,10 @@ task_plan_shown plan_apply(const apply_options& options,
 
 void make_apply(const apply_options& options, const node_client& node,
                 const task_plan_shown& shown) {
+  if (shown.set) {
+    make_set(options, node, shown.request);
+    return;
+  }
   if (shown.is_new || shown.plan.outcome == update_outcome::next_run)
     return start_task(options, node, shown.request, !shown.is_new);
   make_update(options, node, update_of(options, shown.request));

@@ -1,9 +1,11 @@
 #pragma once
 
-#include "messages/task_update.hpp"
+#include "messages/task_set.hpp"
 #include "tools/roscell/tasks/preemption.hpp"
 #include "tools/roscell/tasks/task_options.hpp"
 
+#include <chrono>
+#include <optional>
 #include <string>
 
 /// What `roscell apply`, `rollback` and `run --replace` do with one task: it is
@@ -20,11 +22,12 @@ struct apply_options : task_options {
 /// Adds those that all of these commands have.
 void add_apply_options(CLI::App& command, apply_options& options);
 
-/// What is to be done with a task.
+/// What is to be done with a task, or with a set of them.
 struct task_plan_shown {
-  json request;          ///< The `task_request`.
-  task_update_plan plan; ///< Of a new task each step starts.
-  bool is_new = false;   ///< The cell has no such task.
+  json request;                     ///< The `task_request`.
+  task_update_plan plan;            ///< Of a new task each step starts.
+  bool is_new = false;              ///< The cell has no such task.
+  std::optional<task_set_plan> set; ///< In place of the plan.
 
   /// Whether there is anything to be done.
   bool differs() const;
@@ -38,6 +41,12 @@ task_plan_shown plan_apply(const apply_options& options,
 /// `refused`, or command_error for a change that was put back.
 void make_apply(const apply_options& options, const node_client& node,
                 const task_plan_shown& shown);
+
+/// What is known of a task or set once it is another than `known`, or after a
+/// while.
+task_change next_change(const node_client& node, const std::string& task,
+                        const std::string& known,
+                        std::chrono::steady_clock::time_point until);
 
 /// Ends all steps of a running task and starts them as a request says; throws
 /// as above.

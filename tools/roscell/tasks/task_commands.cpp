@@ -5,6 +5,7 @@
 #include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/tasks/set_apply.hpp"
 #include "tools/roscell/tasks/task_apply.hpp"
 #include "tools/roscell/tasks/wait_finished.hpp"
 #include "tools/roscell/view/event_text.hpp"
@@ -55,12 +56,35 @@ bool is_taken(const json& reply) {
          && failure_from(reply).code == error_code::task_exists;
 }
 
+int run_set_file(const run_options& options, const task_file& file) {
+  if (options.wait_finished)
+    throw wrong_document{file,
+                         {error_code::schema_violation,
+                          "a set of tasks has no end to be waited for",
+                          "/for_each", "leave --wait-finished out"}};
+  const auto request = file.request();
+  if (auto why = validate_request(request))
+    throw wrong_document{file, *why};
+  const node_client node{options.connection};
+  try {
+    const auto row = run_set(options, node, request, options.replace);
+    print(options.as_json() ? pretty(json(row))
+                            : "set '" + printable(row.task)
+                                  + "': " + printable(set_text(row)));
+  } catch (const refused& why) {
+    throw wrong_document{file, failure_from(why.reply)};
+  }
+  return exit_done;
+}
+
 int run_task(const run_options& options) {
   const auto file = read_task_file(options.file, options.values);
   auto request = file.request();
   apply(options.preemption, request);
   if (options.replace)
     request["replace"] = true;
+  if (is_set(request))
+    return run_set_file(options, file);
   add_request_id(request);
   if (auto why = validate_request(request))
     throw wrong_document{file, *why};

@@ -1,6 +1,7 @@
 #include "client/columns.hpp"
 #include "client/instance_text.hpp"
 #include "client/value_text.hpp"
+#include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/views.hpp"
 
 #include <algorithm>
@@ -16,11 +17,52 @@ std::string step_remark(const instance_row& row, int64_t now_unix_ms) {
   return runs_well(row) || has_finished ? "" : remark(row, now_unix_ms);
 }
 
+/// What stands in the way of a set: the first of it, and on how many nodes.
+std::string set_remark(const task_set_row& x) {
+  std::string result;
+  if (!x.problems.empty())
+    result = x.problems.front().node + ": " + x.problems.front().reason;
+  if (x.problems.size() > 1)
+    result += " (and " + std::to_string(x.problems.size() - 1) + " more)";
+  if (!x.stopped.empty())
+    result += (result.empty() ? "" : "; ") + std::string{"stopped on "}
+              + joined(x.stopped, ", ");
+  return result;
+}
+
+std::string labels_text(const std::map<std::string, std::string>& labels) {
+  std::vector<std::string> result;
+  for (const auto& [name, value] : labels)
+    result.push_back(name + "=" + value);
+  return result.empty() ? "all" : joined(result, " ");
+}
+
+std::string sets_view(const std::vector<task_set_row>& sets,
+                      const view_style& style) {
+  table t{{{"SET OF TASKS"},
+           {"NODES", align::left, 2},
+           {"RUNS ON"},
+           {"REMARK", align::left, 1}},
+          {}};
+  for (const auto& x : sets)
+    t.rows.push_back(
+        {x.task, labels_text(x.labels),
+         std::to_string(x.running) + " of " + std::to_string(x.nodes),
+         set_remark(x)});
+  return t.render(style.text);
+}
+
 } // namespace
 
 std::string tasks_view(const task_description& tasks, const view_style& style) {
-  return or_nothing(table_of(task_columns(), tasks.tasks, style), "tasks",
-                    style);
+  if (tasks.sets.empty())
+    return or_nothing(table_of(task_columns(), tasks.tasks, style), "tasks",
+                      style);
+  const auto sets = sets_view(tasks.sets, style);
+  return tasks.tasks.empty()
+             ? sets
+             : table_of(task_columns(), tasks.tasks, style).render(style.text)
+                   + "\n" + sets;
 }
 
 std::string task_view(const task_description& tasks, const view_style& style) {

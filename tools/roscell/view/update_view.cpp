@@ -78,6 +78,26 @@ std::string changes_view(const std::vector<task_update_plan>& tasks,
   return t.rows.empty() ? "" : t.render(style);
 }
 
+std::string set_changes_view(const std::vector<task_set_plan>& sets,
+                             const text_style& style) {
+  table t{{{"SET"},
+           {"NODE"},
+           {"TASK", align::left, 2},
+           {"ACTION"},
+           {"WHY", align::left, 1}},
+          {}};
+  for (const auto& set : sets) {
+    if (set.changes.empty())
+      t.rows.push_back({set.task, "", "", "",
+                        "it is for no node yet; one that comes gets it"});
+    for (const auto& x : set.changes)
+      if (x.action != set_action::stays || !x.reason.empty())
+        t.rows.push_back({set.task, x.node, x.task,
+                          std::string{to_word(x.action)}, x.reason});
+  }
+  return t.rows.empty() ? "" : t.render(style);
+}
+
 std::string revisions_view(const task_revisions& task, const text_style& style,
                            int64_t now_unix_ms) {
   table t{{{"REVISION", align::right},
