@@ -89,10 +89,7 @@ std::vector<set_step> set_table::admit(const std::string& set,
     under_way += work.under_way ? 1 : 0;
     being_changed += work.under_way == set_action::changes ? 1 : 0;
   }
-  const bool may_change =
-      std::none_of(steps.begin(), steps.end(), [&](const auto& x) {
-        return x.change.action == set_action::changes && was_put_back(set, x);
-      });
+  const bool may_change = put_back_on(set, steps).empty();
   for (const auto& x : steps) {
     const bool is_idle = x.change.action == set_action::stays && !x.joins;
     if (is_idle || x.is_held || !x.problem.empty()
@@ -151,13 +148,21 @@ bool set_table::was_put_back(const std::string& set,
          && found->second.changed_for == known->second.what.record.revision;
 }
 
+std::string set_table::put_back_on(const std::string& set,
+                                   const std::vector<set_step>& steps) const {
+  const auto found =
+      std::find_if(steps.begin(), steps.end(), [&](const auto& x) {
+        return x.change.action == set_action::changes && was_put_back(set, x);
+      });
+  return found == steps.end() ? "" : found->change.node;
+}
+
 std::string set_table::problem(const std::string& set,
                                const set_step& step) const {
   const auto known = sets_.find(set);
   if (known == sets_.end() || !step.problem.empty())
     return step.problem;
-  if (step.change.action == set_action::changes && !step.is_held
-      && was_put_back(set, step))
+  if (step.change.action == set_action::changes && was_put_back(set, step))
     return "its change was put back: " + step.put_back;
   const auto found = known->second.nodes.find(step.change.node);
   return found == known->second.nodes.end() ? "" : found->second.problem;

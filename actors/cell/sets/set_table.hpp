@@ -93,6 +93,11 @@ public:
   bool end(const std::string& set, const std::string& node,
            const std::string& problem, time_point now);
 
+  /// The first node whose change was put back, so that no other is changed;
+  /// empty: there is none.
+  std::string put_back_on(const std::string& set,
+                          const std::vector<set_step>& steps) const;
+
   /// What stands in the way of a step; empty: nothing. A change that was put
   /// back does if it was tried for the present request.
   std::string problem(const std::string& set, const set_step& step) const;

@@ -87,9 +87,14 @@ task_set_row describe_set(const cell_coordinator_state& st,
   result.submitted_unix_ms = known->record.submitted_unix_ms;
   result.labels = known->request.for_each.node.labels;
   result.stopped = known->record.stopped;
-  for (const auto& x : plan_of_set(st, known->record, known->request)) {
+  const auto steps = plan_of_set(st, known->record, known->request);
+  const auto put_back_on = st.sets.put_back_on(set, steps);
+  for (const auto& x : steps) {
     result.nodes += x.is_wanted ? 1 : 0;
-    const auto problem = st.sets.problem(set, x);
+    auto problem = st.sets.problem(set, x);
+    if (problem.empty() && !put_back_on.empty()
+        && x.change.action == set_action::changes)
+      problem = "waits, for the change on '" + put_back_on + "' was put back";
     const bool is_done =
         x.change.action == set_action::stays && problem.empty();
     result.pending += is_done ? 0 : 1;

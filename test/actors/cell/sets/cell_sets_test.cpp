@@ -252,8 +252,10 @@ TEST_CASE_METHOD(fleet, "A change that is put back goes no further",
   CHECK(version_on(r1) == "1");
   CHECK(instance_on(r2) == untouched);
   const auto stands = set_row();
-  REQUIRE(stands.at("problems").size() == 1);
+  REQUIRE(stands.at("problems").size() == 2);
   CHECK(stands.at("problems").at(0).at("node") == "r1");
+  CHECK(stands.at("problems").at(1).at("reason")
+        == "waits, for the change on 'r1' was put back");
   CHECK(stands.at("pending") == 2);
   // The next request takes it up.
   apply(patrol(3));
