@@ -1,6 +1,5 @@
 #include "actors/cell/sets/cell_sets.hpp"
 
-#include "actors/cell/sets/set_template.hpp"
 #include "actors/cell/state/build_offers.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
@@ -37,7 +36,7 @@ std::optional<failure> why_unreadable(const cell_coordinator_state& st,
                                       const std::vector<set_step>& steps) {
   const auto wanted =
       std::find_if(steps.begin(), steps.end(), [](const auto& x) {
-        return x.is_wanted && !x.request.task.empty();
+        return x.is_wanted && x.task->problem.empty();
       });
   if (wanted == steps.end()) {
     const auto thought = task_for(request, some_node);
@@ -46,7 +45,7 @@ std::optional<failure> why_unreadable(const cell_coordinator_state& st,
     return std::nullopt;
   }
   const auto read =
-      read_task(wanted->request.task, wanted->request.pipeline,
+      read_task(wanted->change.task, wanted->task->request.pipeline,
                 {skills_within_reach(st), written_in(st), std::nullopt});
   if (const auto* why = std::get_if<failure>(&read))
     return *why;
@@ -152,7 +151,8 @@ caf::result<task_set_plan> apply_set(coordinator_pointer self,
   if (auto why = why_refused(st, request))
     return to_error(*why);
   const auto record = record_for(st, request);
-  const auto steps = plan_of_set(st, record, request);
+  const auto steps =
+      plan_of_set(st, {record, request, std::make_shared<node_tasks>()});
   if (auto why = why_unreadable(st, request, steps))
     return to_error(*why);
   const bool is_new = st.sets.find(request.task) == nullptr;
@@ -213,7 +213,7 @@ void end_tasks_of(coordinator_pointer self, const task_termination& request,
   ending->open = 1;
   std::vector<std::string> tasks;
   for (const auto& [task, entry] : st.tasks.entries())
-    if (set_of(entry.request) == request.task)
+    if (entry.set == request.task)
       tasks.push_back(task);
   for (const auto& task : tasks)
     end_task_of(self, task, request.force, ending);
@@ -237,7 +237,7 @@ caf::result<task_terminated> remove_set(coordinator_pointer self,
 void note_stopped_by_user(coordinator_pointer self, const std::string& task) {
   auto& st = self->state;
   const auto* entry = st.tasks.find(task);
-  const auto set = entry ? set_of(entry->request) : std::string{};
+  const auto set = entry ? entry->set : std::string{};
   const auto* known = st.sets.find(set);
   if (!known)
     return;

@@ -42,11 +42,13 @@ void settle_due_sets(coordinator_pointer self);
 
 /// What a set means for the nodes and tasks that there are.
 std::vector<set_step> plan_of_set(const cell_coordinator_state& st,
-                                  const task_set_record& record,
-                                  const task_set_request& request);
+                                  const set_table::entry& set);
 
 /// How a set stands.
 task_set_row describe_set(const cell_coordinator_state& st,
                           const std::string& set);
+task_set_row describe_set(const cell_coordinator_state& st,
+                          const std::string& set,
+                          const std::vector<set_step>& steps);
 
 } // namespace roscell

@@ -1,11 +1,7 @@
 #include "actors/cell/sets/set_plan.hpp"
 
-#include "actors/cell/sets/set_template.hpp"
-#include "actors/placement/reading/task_reading.hpp"
-
 #include <algorithm>
 #include <utility>
-#include <variant>
 
 namespace roscell {
 
@@ -41,24 +37,21 @@ void compare_task(set_step& x, const set_question& question,
                   "another name";
     return;
   }
-  x.change.action = action_for(task, body_of(x.request));
+  x.change.action = action_for(task, x.task->body);
   x.joins = x.change.action == set_action::stays && !task.is_of_run;
   x.is_held = node.is_away || task.is_ending || task.is_busy;
   x.put_back = task.update_problem;
 }
 
 set_step step_for_node(const set_question& question, const std::string& name,
-                       const set_node& node) {
+                       const set_node& node, node_tasks& tasks) {
   set_step result;
   result.change.node = name;
   result.change.task = task_name(question.request.task, name);
-  auto request = task_for(question.request, name);
-  if (auto* why = std::get_if<failure>(&request)) {
-    result.problem = why->message;
-    return result;
-  }
-  result.request = std::get<task_request>(std::move(request));
-  compare_task(result, question, node);
+  result.task = tasks.of(question.request, name);
+  result.problem = result.task->problem;
+  if (result.problem.empty())
+    compare_task(result, question, node);
   return result;
 }
 
@@ -96,7 +89,9 @@ bool is_for(const task_set_request& set, const set_node& node) {
             });
 }
 
-std::vector<set_step> plan_set(const set_question& question) {
+std::vector<set_step> plan_set(const set_question& question,
+                               node_tasks& tasks) {
+  tasks.keep_within(2 * question.nodes.size());
   const auto& set = question.request.task;
   std::vector<set_step> result;
   std::set<std::string> wanted;
@@ -105,7 +100,7 @@ std::vector<set_step> plan_set(const set_question& question) {
       wanted.insert(task_name(set, name));
     } else if (is_for(question.request, node)
                && question.stopped.count(name) == 0) {
-      result.push_back(step_for_node(question, name, node));
+      result.push_back(step_for_node(question, name, node, tasks));
       wanted.insert(result.back().change.task);
     }
   // A node that has got another name runs what it had under the former one, and

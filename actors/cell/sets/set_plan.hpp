@@ -1,9 +1,10 @@
 #pragma once
 
+#include "actors/cell/sets/set_template.hpp"
 #include "messages/task_set.hpp"
 
 #include <map>
-#include <optional>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -42,12 +43,12 @@ struct set_question {
 /// What is to be done for one node.
 struct set_step {
   set_change change;
-  task_request request;  ///< Of the node's task; empty where it stops.
-  bool is_wanted = true; ///< The set is for that node.
-  bool joins = false;    ///< What runs is asked for under the present run, too.
-  bool is_held = false;  ///< It waits for something else.
-  std::string put_back;  ///< Why its last change was; empty: it was not.
-  std::string problem;   ///< Why it cannot be done; empty: it can.
+  std::shared_ptr<const node_task> task; ///< Null where it stops.
+  bool is_wanted = true;                 ///< The set is for that node.
+  bool joins = false;   ///< What runs is asked for under the present run, too.
+  bool is_held = false; ///< It waits for something else.
+  std::string put_back; ///< Why its last change was; empty: it was not.
+  std::string problem;  ///< Why it cannot be done; empty: it can.
 };
 
 /// The nodes that a set is for: they have its labels, are not to be empty, and
@@ -57,6 +58,7 @@ bool is_for(const task_set_request& set, const set_node& node);
 /// One for each node that the set is for, by name, and one for each of its
 /// tasks that no such node has. Of nodes whose labels nobody knows nothing is
 /// said. A node on which a task of it is to stop begins another one after that.
-std::vector<set_step> plan_set(const set_question& question);
+/// @param tasks what has been worked out for nodes before.
+std::vector<set_step> plan_set(const set_question& question, node_tasks& tasks);
 
 } // namespace roscell

@@ -42,7 +42,9 @@ bool set_table::apply(const task_set_record& record) {
       work.retry = time_point::min();
       work.pause.reset();
     }
-  x.what = {record, body.get<task_set_request>()};
+  const bool is_same = x.what.record.request == record.request && x.what.tasks;
+  x.what = {record, body.get<task_set_request>(),
+            is_same ? x.what.tasks : std::make_shared<node_tasks>()};
   return true;
 }
 

@@ -51,6 +51,7 @@ public:
   struct entry {
     task_set_record record;
     task_set_request request;
+    std::shared_ptr<node_tasks> tasks; ///< What that means for nodes.
   };
 
   const entry* find(const std::string& set) const;

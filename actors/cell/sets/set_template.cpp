@@ -1,6 +1,7 @@
 #include "actors/cell/sets/set_template.hpp"
 
 #include "actors/placement/reading/step_copies.hpp"
+#include "actors/placement/reading/task_reading.hpp"
 #include "schemas/reading/placeholder.hpp"
 
 #include <utility>
@@ -54,6 +55,28 @@ std::variant<task_request, failure> task_for(const task_set_request& set,
   result.update = set.update;
   result.set = set.task;
   return result;
+}
+
+std::shared_ptr<const node_task> node_tasks::of(const task_set_request& set,
+                                                const std::string& node) {
+  auto& known = known_[node];
+  if (known)
+    return known;
+  node_task fresh;
+  auto request = task_for(set, node);
+  if (auto* why = std::get_if<failure>(&request)) {
+    fresh.problem = why->message;
+  } else {
+    fresh.request = std::get<task_request>(std::move(request));
+    fresh.body = body_of(fresh.request);
+  }
+  known = std::make_shared<const node_task>(std::move(fresh));
+  return known;
+}
+
+void node_tasks::keep_within(size_t most) {
+  if (known_.size() > most)
+    known_.clear();
 }
 
 } // namespace roscell

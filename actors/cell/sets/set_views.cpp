@@ -1,5 +1,4 @@
 #include "actors/cell/sets/cell_sets.hpp"
-#include "actors/cell/sets/set_template.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/tasks/task_views.hpp"
 #include "actors/placement/questions/search_problem.hpp"
@@ -39,7 +38,7 @@ set_task task_for_sets(const cell_coordinator_state& st,
                        const std::string& name, const task_entry& entry,
                        const std::string& run) {
   set_task x;
-  x.set = set_of(entry.request);
+  x.set = entry.set;
   x.body = entry.request;
   x.is_ending = entry.ending;
   x.is_busy =
@@ -63,10 +62,10 @@ bool is_well(const cell_coordinator_state& st, const std::string& task) {
 } // namespace
 
 std::vector<set_step> plan_of_set(const cell_coordinator_state& st,
-                                  const task_set_record& record,
-                                  const task_set_request& request) {
+                                  const set_table::entry& set) {
+  const auto& record = set.record;
   set_question question;
-  question.request = request;
+  question.request = set.request;
   question.stopped = {record.stopped.begin(), record.stopped.end()};
   question.nodes = nodes_for_sets(st);
   const auto prefix = task_name(record.task, "");
@@ -74,11 +73,19 @@ std::vector<set_step> plan_of_set(const cell_coordinator_state& st,
     if (name.compare(0, prefix.size(), prefix) == 0)
       question.tasks[name] =
           task_for_sets(st, name, entry, run_id(record, name));
-  return plan_set(question);
+  return plan_set(question, *set.tasks);
 }
 
 task_set_row describe_set(const cell_coordinator_state& st,
                           const std::string& set) {
+  const auto* known = st.sets.find(set);
+  return known ? describe_set(st, set, plan_of_set(st, *known))
+               : task_set_row{};
+}
+
+task_set_row describe_set(const cell_coordinator_state& st,
+                          const std::string& set,
+                          const std::vector<set_step>& steps) {
   task_set_row result;
   const auto* known = st.sets.find(set);
   if (!known)
@@ -87,7 +94,6 @@ task_set_row describe_set(const cell_coordinator_state& st,
   result.submitted_unix_ms = known->record.submitted_unix_ms;
   result.labels = known->request.for_each.node.labels;
   result.stopped = known->record.stopped;
-  const auto steps = plan_of_set(st, known->record, known->request);
   const auto put_back_on = st.sets.put_back_on(set, steps);
   for (const auto& x : steps) {
     result.nodes += x.is_wanted ? 1 : 0;

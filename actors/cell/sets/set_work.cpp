@@ -14,7 +14,7 @@ namespace {
 
 /// What the set asks for, as a user would.
 json request_for(const task_set_record& record, const set_step& x) {
-  auto request = x.request;
+  auto request = x.task->request;
   if (x.change.action == set_action::changes) {
     task_update update;
     update.task = request.task;
@@ -86,19 +86,18 @@ void carry_out(coordinator_pointer self, const task_set_record& record,
 size_t being_changed(const cell_coordinator_state& st, const std::string& set) {
   return static_cast<size_t>(std::count_if(
       st.tasks.entries().begin(), st.tasks.entries().end(), [&](const auto& x) {
-        return st.updates.is_updating(x.first)
-               && set_of(x.second.request) == set;
+        return st.updates.is_updating(x.first) && x.second.set == set;
       }));
 }
 
 void settle_set(coordinator_pointer self, const std::string& set) {
   auto& st = self->state;
   const auto known = *st.sets.find(set);
-  const auto steps = plan_of_set(st, known.record, known.request);
+  const auto steps = plan_of_set(st, known);
   for (const auto& step :
        st.sets.admit(set, steps, being_changed(st, set), self->clock().now()))
     carry_out(self, known.record, step);
-  const auto row = describe_set(st, set);
+  const auto row = describe_set(st, set, steps);
   if (st.sets.note_counts(row))
     st.context.publish_event(events::set_changed, set,
                              {{"nodes", row.nodes},
@@ -112,8 +111,7 @@ void end_tasks_of_no_set(coordinator_pointer self) {
   auto& st = self->state;
   std::vector<std::string> orphans;
   for (const auto& [task, entry] : st.tasks.entries())
-    if (const auto set = set_of(entry.request);
-        !set.empty() && !st.sets.find(set) && !entry.ending)
+    if (!entry.set.empty() && !st.sets.find(entry.set) && !entry.ending)
       orphans.push_back(task);
   for (const auto& task : orphans)
     self->request(cell_coordinator_actor{self}, limits::task::termination,

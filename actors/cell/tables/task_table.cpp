@@ -60,6 +60,7 @@ void task_table::begin(const std::string& task, const std::string& request,
                        const std::string& id, int64_t now_unix_ms) {
   task_entry fresh;
   fresh.request = request;
+  fresh.set = set_of(request);
   fresh.submitted_unix_ms = now_unix_ms;
   if (!id.empty())
     fresh.request_ids.push_back(id);
@@ -85,6 +86,7 @@ bool task_table::begin_ending(const std::string& task) {
 void task_table::apply(const task_record& record) {
   auto& entry = entries_[record.task];
   entry.request = record.request;
+  entry.set = set_of(record.request);
   entry.accepted = record.accepted;
   entry.state = record.state;
   entry.submitted_unix_ms = record.submitted_unix_ms;
@@ -119,8 +121,7 @@ bool task_table::is_kept(const std::string& task) const {
 std::vector<std::string> task_table::superfluous() const {
   std::vector<std::pair<int64_t, std::string>> settled;
   for (const auto& [task, entry] : entries_)
-    if (is_settled(entry.state) && !entry.ending
-        && set_of(entry.request).empty())
+    if (is_settled(entry.state) && !entry.ending && entry.set.empty())
       settled.emplace_back(entry.submitted_unix_ms, task);
   std::sort(settled.begin(), settled.end());
   std::vector<std::string> result;

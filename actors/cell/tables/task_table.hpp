@@ -104,6 +104,7 @@ struct task_record {
 /// What the table knows of a task besides what it has deployed.
 struct task_entry {
   std::string request;
+  std::string set;      ///< As the request says.
   std::string accepted; ///< Without its instances; empty until placed.
   task_state state = task_state::deploying; ///< As it is stored.
   int64_t submitted_unix_ms = 0;

@@ -87,7 +87,7 @@ task_row describe_task(const cell_coordinator_state& st,
                   st.updates.text(task),
                   entry.update.problem,
                   task_labels(entry),
-                  set_of(entry.request)};
+                  entry.set};
   for (const auto& x : st.deployments.of_task(task))
     result.instances.push_back(shown(st, st.deployments.row_of(x)));
   sort_by_flow(result.instances);
@@ -171,7 +171,7 @@ task_description describe_tasks_of_set(const cell_coordinator_state& st,
                                        const std::string& set) {
   task_description result;
   for (const auto& [task, entry] : st.tasks.entries())
-    if (is_shown(entry) && set_of(entry.request) == set)
+    if (is_shown(entry) && entry.set == set)
       result.tasks.push_back(describe_task(st, task, entry));
   result.sets.push_back(describe_set(st, set));
   result.sets.back().request = st.sets.find(set)->record.request;

@@ -63,6 +63,11 @@ std::vector<std::string> nodes_in(const std::vector<set_step>& steps) {
 
 using names = std::vector<std::string>;
 
+std::vector<set_step> planned(const set_question& question) {
+  node_tasks tasks;
+  return plan_set(question, tasks);
+}
+
 /// A table with one set, and what `plan_set` says.
 struct known_set {
   set_table table;
@@ -128,18 +133,18 @@ TEST_CASE("Each node with the labels gets a task, others get none",
   auto drained = robot();
   drained.is_draining = true;
   const auto steps =
-      plan_set(asked({{"r1", robot()}, {"desk", other}, {"r2", drained}}));
+      planned(asked({{"r1", robot()}, {"desk", other}, {"r2", drained}}));
   CHECK(only(steps).change.action == set_action::starts);
   CHECK(only(steps).change.task == "patrol-r1");
-  CHECK(plan_set(asked({{"desk", other}})).empty());
+  CHECK(planned(asked({{"desk", other}})).empty());
 }
 
 TEST_CASE("A task stays while its request does, and is changed where not",
           "[task_sets]") {
-  CHECK(only(plan_set(asked({{"r1", robot()}}, {{"patrol-r1", present("r1")}})))
+  CHECK(only(planned(asked({{"r1", robot()}}, {{"patrol-r1", present("r1")}})))
             .change.action
         == set_action::stays);
-  CHECK(only(plan_set(
+  CHECK(only(planned(
                  asked({{"r1", robot()}}, {{"patrol-r1", present("r1", "0")}})))
             .change.action
         == set_action::changes);
@@ -150,7 +155,7 @@ TEST_CASE("What has ended runs once more for another run or request only",
   auto ended = present("r1");
   ended.is_settled = true;
   const auto action = [&](const set_task& x) {
-    return only(plan_set(asked({{"r1", robot()}}, {{"patrol-r1", x}})))
+    return only(planned(asked({{"r1", robot()}}, {{"patrol-r1", x}})))
         .change.action;
   };
   CHECK(action(ended) == set_action::stays);
@@ -165,10 +170,10 @@ TEST_CASE("What runs is asked for under another run, and stays",
           "[task_sets]") {
   auto runs = present("r1");
   CHECK_FALSE(
-      only(plan_set(asked({{"r1", robot()}}, {{"patrol-r1", runs}}))).joins);
+      only(planned(asked({{"r1", robot()}}, {{"patrol-r1", runs}}))).joins);
   runs.is_of_run = false;
   const auto step =
-      only(plan_set(asked({{"r1", robot()}}, {{"patrol-r1", runs}})));
+      only(planned(asked({{"r1", robot()}}, {{"patrol-r1", runs}})));
   CHECK(step.joins);
   CHECK(step.change.action == set_action::stays);
 }
@@ -177,30 +182,30 @@ TEST_CASE("A task ends where the set is not for its node", "[task_sets]") {
   auto without = robot();
   without.labels.clear();
   auto question = asked({{"r1", without}}, {{"patrol-r1", present("r1")}});
-  CHECK(only(plan_set(question)).change.action == set_action::stops);
+  CHECK(only(planned(question)).change.action == set_action::stops);
   question.nodes["r1"] = robot();
-  CHECK(only(plan_set(question)).change.action == set_action::stays);
+  CHECK(only(planned(question)).change.action == set_action::stays);
   question.stopped = {"r1"};
-  CHECK(only(plan_set(question)).change.action == set_action::stops);
+  CHECK(only(planned(question)).change.action == set_action::stops);
   question.stopped.clear();
   question.nodes.clear();
-  CHECK(only(plan_set(question)).change.action == set_action::stops);
+  CHECK(only(planned(question)).change.action == set_action::stops);
 }
 
 TEST_CASE("Of a node whose labels nobody knows yet nothing is said",
           "[task_sets]") {
   set_node unknown;
   unknown.is_unknown = true;
-  CHECK(plan_set(asked({{"r1", unknown}}, {{"patrol-r1", present("r1")}}))
+  CHECK(planned(asked({{"r1", unknown}}, {{"patrol-r1", present("r1")}}))
             .empty());
-  CHECK(plan_set(asked({{"r1", unknown}})).empty());
+  CHECK(planned(asked({{"r1", unknown}})).empty());
 }
 
 TEST_CASE("A node that was renamed begins its task once the former one is gone",
           "[task_sets]") {
   auto former = present("old");
   former.nodes = {"new"};
-  const auto steps = plan_set(
+  const auto steps = planned(
       asked({{"new", robot()}, {"r2", robot()}}, {{"patrol-old", former}}));
   REQUIRE(steps.size() == 3);
   CHECK(steps[0].change.task == "patrol-new");
@@ -214,22 +219,22 @@ TEST_CASE("A task of somebody else is left alone", "[task_sets]") {
   auto foreign = present("r1");
   foreign.set.clear();
   const auto step =
-      only(plan_set(asked({{"r1", robot()}}, {{"patrol-r1", foreign}})));
+      only(planned(asked({{"r1", robot()}}, {{"patrol-r1", foreign}})));
   CHECK_FALSE(step.problem.empty());
   auto without = robot();
   without.labels.clear();
-  CHECK(plan_set(asked({{"r1", without}}, {{"patrol-r1", foreign}})).empty());
+  CHECK(planned(asked({{"r1", without}}, {{"patrol-r1", foreign}})).empty());
 }
 
 TEST_CASE("What is away, ending or busy is waited for", "[task_sets]") {
   auto away = robot();
   away.is_away = true;
-  CHECK(only(plan_set(asked({{"r1", away}}))).is_held);
+  CHECK(only(planned(asked({{"r1", away}}))).is_held);
   for (auto flag : {&set_task::is_ending, &set_task::is_busy}) {
     auto task = present("r1", "0");
     task.*flag = true;
-    CHECK(only(plan_set(asked({{"r1", robot()}}, {{"patrol-r1", task}})))
-              .is_held);
+    CHECK(
+        only(planned(asked({{"r1", robot()}}, {{"patrol-r1", task}}))).is_held);
   }
 }
 
@@ -251,8 +256,8 @@ TEST_CASE("One change that was put back keeps the others from being changed",
   auto broken = present("a", "0");
   broken.update_problem = "step 'drive' has failed";
   const auto steps =
-      plan_set(asked({{"a", robot()}, {"b", robot()}, {"c", robot()}},
-                     {{"patrol-a", broken}, {"patrol-b", present("b", "0")}}));
+      planned(asked({{"a", robot()}, {"b", robot()}, {"c", robot()}},
+                    {{"patrol-a", broken}, {"patrol-b", present("b", "0")}}));
   known_set set{10};
   // That of an earlier request says nothing of this one.
   CHECK(nodes_in(set.admitted(steps)) == names{"a", "b", "c"});
