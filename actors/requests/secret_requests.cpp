@@ -28,8 +28,7 @@ std::optional<failure> refuse_from_afar(const std::string& type,
     return failure{error_code::unauthorized,
                    "a secret is set on the host of its node only: from '" + from
                        + "' its value would travel in clear",
-                   "",
-                   "run `roscell secret set` there, by ssh for instance",
+                   "", "run `roscell secret set` there, by ssh for instance",
                    ""};
   if ((type == secret_removal::type || type == secret_query::type) && by_node)
     return failure{error_code::unauthorized,

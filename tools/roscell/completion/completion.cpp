@@ -194,6 +194,7 @@ constexpr name_source name_sources[] = {
     {"cells", "/v1/cells", "", "cells", "/cell"},
     {"tasks", "/v1/tasks", "", "tasks", "/task"},
     {"instances", "/v1/instances", "", "instances", "/spec/instance"},
+    {"secrets", "/v1/secrets", "", "secrets", "/name"},
     {"actors", "/v1/node?actors=1", "", "actors", "/name"},
     {"transfers", "/v1/requests", transfers_asked, "transfers", "/transfer"},
 };
