@@ -44,7 +44,7 @@ bool is_secret_name(std::string_view text) {
          && std::all_of(text.begin(), text.end(), is_inner);
 }
 
-edge_error secret_trouble(const std::string& what, const fs::path& path,
+edge_error secret_failure(const std::string& what, const fs::path& path,
                           const std::string& why) {
   return {error_code::internal,
           "cannot " + what + " '" + path.string() + "': " + why,
@@ -144,7 +144,7 @@ stored_secrets secret_folder::look() const {
 std::optional<edge_error> secret_folder::write(const std::string& name,
                                                const std::string& value) const {
   if (!make_own_folder(folder_))
-    return secret_trouble("keep for itself the folder", folder_,
+    return secret_failure("keep for itself the folder", folder_,
                           std::strerror(errno));
   const auto file = file_of(name);
   if (auto why = write_lasting(file, value); !why.empty()) {
@@ -153,7 +153,7 @@ std::optional<edge_error> secret_folder::write(const std::string& name,
                       "check that the disk of the data directory has room"};
   }
   if (!sync_folder(folder_))
-    return secret_trouble("write", folder_, std::strerror(errno));
+    return secret_failure("write", folder_, std::strerror(errno));
   return std::nullopt;
 }
 
@@ -162,14 +162,14 @@ edge_result<std::string> secret_folder::read(const std::string& name) const {
   errno = 0;
   if (auto value = read_small_file(file, limits::secret::bytes))
     return std::move(*value);
-  return secret_trouble("read the secret in", file,
+  return secret_failure("read the secret in", file,
                         errno != 0 ? std::strerror(errno) : "it is too long");
 }
 
 std::optional<edge_error> secret_folder::remove(const std::string& name) const {
   const auto file = file_of(name);
   if ((::unlink(file.c_str()) != 0 && errno != ENOENT) || !sync_folder(folder_))
-    return secret_trouble("remove", file, std::strerror(errno));
+    return secret_failure("remove", file, std::strerror(errno));
   return std::nullopt;
 }
 

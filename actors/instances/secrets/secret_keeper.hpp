@@ -1,8 +1,8 @@
 #pragma once
 
 #include "actors/core/actor_context.hpp"
-#include "actors/edge/disk/memory_folder.hpp"
 #include "actors/edge/disk/secret_folder.hpp"
+#include "actors/edge/process/memory_folder.hpp"
 #include "actors/instances/secrets/secret_names.hpp"
 #include "actors/instances/secrets/secret_table.hpp"
 #include "messages/messages.hpp"

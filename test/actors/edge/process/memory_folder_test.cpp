@@ -1,4 +1,4 @@
-#include "actors/edge/disk/memory_folder.hpp"
+#include "actors/edge/process/memory_folder.hpp"
 
 #include "test/temp_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "actors/edge/disk/memory_folder.hpp"
+#include "actors/edge/process/memory_folder.hpp"
 
 #include "actors/edge/disk/file_rights.hpp"
 #include "actors/edge/disk/small_file.hpp"
@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-edge_error memory_trouble(const std::string& what, const fs::path& path) {
+edge_error no_memory_file(const std::string& what, const fs::path& path) {
   return {error_code::internal,
           "cannot " + what + " '" + path.string()
               + "': " + std::strerror(errno),
@@ -81,13 +81,13 @@ std::optional<edge_error> fill(const fs::path& folder,
                                const memory_folder::file_list& files,
                                const std::optional<user_account>& reader) {
   if (::mkdir(folder.c_str(), 0700) != 0)
-    return memory_trouble("make the folder", folder);
+    return no_memory_file("make the folder", folder);
   for (const auto& [name, bytes] : files)
     if (!make_file(folder / name, bytes)
         || !hand_over(folder / name, reader, access_right::read))
-      return memory_trouble("lay a secret out in", folder / name);
+      return no_memory_file("lay a secret out in", folder / name);
   if (!hand_over(folder, reader, access_right::pass))
-    return memory_trouble("hand over", folder);
+    return no_memory_file("hand over", folder);
   return std::nullopt;
 }
 
@@ -128,7 +128,7 @@ edge_result<fs::path> memory_folder::lay_out(const std::string& program,
   const auto own = place / name_;
   // Others may pass, for their own folders; they see none of them.
   if (!make_own_folder(own) || ::chmod(own.c_str(), 0711) != 0)
-    return memory_trouble("keep for itself the folder", own);
+    return no_memory_file("keep for itself the folder", own);
   clear(program);
   auto folder = own / program;
   if (auto why =
