@@ -104,6 +104,7 @@ environment read_environment(const variable_lookup& lookup) {
   result.instance = optional_text(lookup, "ROSCELL_INSTANCE");
   result.operation = optional_text(lookup, "ROSCELL_OPERATION");
   result.deployment = optional_text(lookup, "ROSCELL_DEPLOYMENT");
+  result.secrets_folder = optional_text(lookup, "ROSCELL_SECRETS");
   result.model = required_text(lookup, "ROSCELL_MODEL");
   result.inputs = read_streams(lookup, "ROSCELL_INPUTS", 1);
   result.outputs = read_streams(lookup, "ROSCELL_OUTPUTS", 0);
@@ -117,7 +118,6 @@ environment read_environment(const variable_lookup& lookup) {
   if (usec)
     result.watchdog = std::chrono::microseconds{*usec};
   result.health = optional_text(lookup, "ROSCELL_HEALTH") == "1";
-  result.secrets_folder = optional_text(lookup, "ROSCELL_SECRETS");
   return result;
 }
 

@@ -97,9 +97,10 @@ std::vector<fs::path> memory_places() {
   std::vector<fs::path> result;
   if (::geteuid() == 0)
     result.emplace_back("/run");
-  else if (const char* own = std::getenv("XDG_RUNTIME_DIR");
-           own != nullptr && own[0] == '/')
-    result.emplace_back(own);
+  else
+    for (const auto* name : {"RUNTIME_DIRECTORY", "XDG_RUNTIME_DIR"})
+      if (const char* own = std::getenv(name); own != nullptr && own[0] == '/')
+        result.emplace_back(own);
   result.emplace_back("/dev/shm");
   return result;
 }

@@ -11,8 +11,9 @@
 
 namespace roscell {
 
-/// Where this user may make files that no disk ever has: /run for root, what
-/// $XDG_RUNTIME_DIR names for others, then /dev/shm.
+/// Where this user may make files that no disk ever has: /run for root, for
+/// others what systemd names in $RUNTIME_DIRECTORY and $XDG_RUNTIME_DIR, then
+/// /dev/shm.
 std::vector<std::filesystem::path> memory_places();
 
 /// Whether what is at that path lies in memory, and nowhere else.
