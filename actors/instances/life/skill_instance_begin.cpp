@@ -66,8 +66,10 @@ void on_built(skill_instance_pointer self, const std::string& image,
   st.row.image = image;
   st.started_at = st.config.address;
   st.started_in = st.config.boot;
-  if (!may_start(self))
+  if (!may_start(self)) {
+    drop_secrets(self);
     return wait_for_contact(self);
+  }
   enter(self, instance_state::starting);
   start_container request;
   request.instance = spec.instance;
