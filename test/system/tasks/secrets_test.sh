@@ -69,7 +69,7 @@ test_a_step_reads_the_secrets_of_its_node_and_nobody_else_has_them() {
   run_with_secrets t
   expect "what it found" "$(cat "$scratch/data/found")" \
     "$key_value $pass_value 700 root 400 root "
-  expect "who has them" "$(secrets_of head | jq -c '[.secrets[] | [.name, .instances]]')" \
+  expect "who has them" "$(secrets_of head | jq -c '[.[] | [.name, .instances]]')" \
     "[[\"key\",[\"$instance\"]],[\"pass\",[\"$instance\"]]]"
   expect "the file system" "$(stat -f -c %T "$(folder_of)")" tmpfs
   expect "modes on the disk" "$(stat -c %a "$scratch/head/secrets" \
@@ -192,7 +192,7 @@ test_secrets_survive_the_death_of_their_node() {
   expect "the program" "$(program_of)" "$before"
   expect "its file" "$(cat "$folder/key")" "$key_value"
   [[ ! -e $stray ]] || fail "what an instance has left that is gone is still there"
-  expect "who has it" "$(secrets_of head | jq -r '.secrets[0].instances[0]')" "$instance"
+  expect "who has it" "$(secrets_of head | jq -r '.[0].instances[0]')" "$instance"
   lines_come t second
   # Its program ends while the node is away: the next one is given them anew.
   since=$(last_event)
@@ -233,7 +233,7 @@ test_a_secret_is_whole_whenever_its_node_is_killed() {
     expect "what it is made of" "$(tr -d x < "$scratch/head/secrets/key.secret" | wc -c)" 0
     start_node head --coordinator --cell line --interface lo --label place=head
     expect "what is there" "$(ls "$scratch/head/secrets")" key.secret
-    expect "what is told" "$(secrets_of head | jq -r '.secrets[].name')" key
+    expect "what is told" "$(secrets_of head | jq -r '.[].name')" key
   done
 }
 
@@ -263,7 +263,7 @@ test_what_is_no_secret_is_refused_and_says_why() {
   echo x > "$scratch/head/secrets/notes"
   start_node head --coordinator --cell line --interface lo --label place=head
   await head '.event == "secret_ignored" and (.data.path | endswith("/notes"))' > /dev/null
-  expect "what is left" "$(secrets_of head | jq -r '.secrets[].name')" key
+  expect "what is left" "$(secrets_of head | jq -r '.[].name')" key
 }
 
 test_a_terminal_does_not_show_a_secret() {

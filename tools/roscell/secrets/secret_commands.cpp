@@ -74,7 +74,7 @@ int list_secrets(const secret_options& options) {
   const auto reply = node.get("/v1/secrets");
   const auto style = view_style_now();
   if (options.output == "json")
-    print(pretty(reply));
+    print(pretty(reply.at("secrets")));
   else
     print(secret_table_of(reply.get<secret_list>(), style.now_unix_ms)
               .render(style.text));
