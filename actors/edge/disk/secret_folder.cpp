@@ -138,6 +138,8 @@ stored_secrets secret_folder::look() const {
   std::sort(found.begin(), found.end());
   for (const auto& path : found)
     take(path, result);
+  std::sort(result.secrets.begin(), result.secrets.end(),
+            [](const auto& x, const auto& y) { return x.name < y.name; });
   return result;
 }
 
