@@ -30,7 +30,7 @@ struct secret_bench : instance_bench {
     auto& spec = config.row.spec;
     spec.secrets = {"key"};
     spec.secret_env = {{"PASSWORD", "pass"}};
-    spec.environment = {{"PASSWORD_FILE", "x"}};
+    spec.life.restart.policy = restart_when::on_failure;
     given = {"/memory/i", {"hidden"}};
   }
 
@@ -115,7 +115,7 @@ TEST_CASE("an instance whose secret is gone waits, and says what sets it",
         == "node 'n' has no secret 'key' (`roscell secret set key` there)");
   CHECK(b.runtime->started.size() == 1);
   b.refusal = {};
-  b.advance(60s);
+  b.advance(10s);
   REQUIRE(b.runtime->started.size() == 2);
   b.ready();
   CHECK(b.state() == instance_state::running);
