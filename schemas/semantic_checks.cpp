@@ -77,12 +77,26 @@ void check_env(error_list& errors, const place& variables) {
                             + in_quotes(name)});
 }
 
+/// A variable is a text or a secret.
+void check_apart(error_list& errors, const place& texts, const place& secrets) {
+  if (!texts.value.is_object() || !secrets.value.is_object())
+    return;
+  for (const auto& [name, secret] : secrets.value.items())
+    if (texts.value.contains(name))
+      errors.push_back({(secrets.at / name).to_string(),
+                        "expected a variable that \"env\" does not set too, "
+                        "got "
+                            + in_quotes(name)});
+}
+
 void check_pipeline(error_list& errors, const place& request) {
   auto steps = request / "pipeline";
   check_unique(errors, steps, "id", "an id that no other step has");
   for (const auto& step : steps.items()) {
     check_streams(errors, step);
     check_env(errors, step / "env");
+    check_env(errors, step / "secret_env");
+    check_apart(errors, step / "env", step / "secret_env");
   }
 }
 

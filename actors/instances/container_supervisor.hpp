@@ -48,6 +48,7 @@ struct container_supervisor_config {
   environment_writer
       write_environment_update; ///< Empty: no instance can be told.
   shared_skill_grants grants;   ///< Null: nothing is granted to any skill.
+  secret_keeper_actor secrets;  ///< Invalid: this node keeps none.
 };
 
 /// An instance as the supervisor sees it.

@@ -132,6 +132,10 @@ size_t bytes_of(const instance_row& row) {
     result += name.size() + value.size();
   for (const auto& argument : row.spec.arguments)
     result += argument.size();
+  for (const auto& secret : row.spec.secrets)
+    result += secret.size();
+  for (const auto& [variable, secret] : row.spec.secret_env)
+    result += variable.size() + secret.size();
   for (const auto* ends : {&row.spec.input, &row.spec.output})
     for (const auto& x : *ends)
       result += x.endpoint.size();

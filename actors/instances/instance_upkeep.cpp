@@ -83,7 +83,8 @@ void spawn_actor(container_supervisor_pointer self, supervised_instance& x,
       renewal,
       st.config.write_environment_update,
       st.config.grants,
-      st.config.node};
+      st.config.node,
+      st.config.secrets};
   if (!renewal.empty())
     st.config.started_at[id] = st.config.address;
   x.actor = spawn(self->system(), st.config.context, skill_instance, config);
@@ -116,6 +117,8 @@ void on_instance_died(container_supervisor_pointer self,
     self->send(st.listener, instance_changed{x.row});
   // Nobody watches the program any more, so it must not go on.
   caf::anon_send(st.runtime, stop_container{instance, x.row.container, 0});
+  if (st.config.secrets)
+    caf::anon_send(st.config.secrets, clear_secrets{instance});
   on_ended(self, instance, x);
 }
 

@@ -28,8 +28,10 @@ constexpr minutes build{10};
 constexpr seconds start{30};
 /// From the start of the program to READY=1; loading a model takes a while.
 constexpr seconds ready{30};
+/// For its secrets to be laid out, after others that are being written.
+constexpr seconds secrets{5};
 /// All of it.
-constexpr seconds deployment = build + start + ready + 2 * disk;
+constexpr seconds deployment = build + secrets + start + ready + 2 * disk;
 /// From the polite request to end to force.
 constexpr seconds stop_grace{5};
 /// The longest that a runtime can be told to grant.

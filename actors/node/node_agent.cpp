@@ -84,6 +84,8 @@ resource_report complete(node_agent_self self, node_resources resources,
   resources.name = config.node;
   resources.labels = config.labels;
   resources.grants = config.grants;
+  if (config.secrets)
+    resources.secrets = config.secrets->get();
   for (const auto& device : config.devices)
     if (std::find(resources.devices.begin(), resources.devices.end(), device)
         == resources.devices.end())

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/core/actor_context.hpp"
+#include "actors/instances/secrets/secret_names.hpp"
 #include "actors/node/reservation_table.hpp"
 #include "messages/messages.hpp"
 
@@ -22,6 +23,7 @@ struct node_agent_config {
   /// Part of the cores that a new process gets beside busy programs.
   double cpu_floor = 0;
   std::vector<std::string> grants; ///< What it grants to skills.
+  shared_secret_names secrets;     ///< Null: it keeps none.
 };
 
 /// Answers for the local node what a coordinator asks of it.

@@ -12,6 +12,7 @@
 #include "actors/instances/container_supervisor.hpp"
 #include "actors/instances/life/runtime_switch.hpp"
 #include "actors/instances/ros2/graph_watch.hpp"
+#include "actors/instances/secrets/secret_keeper.hpp"
 #include "actors/instances/skills/skill_watcher.hpp"
 #include "actors/membership/discovery.hpp"
 #include "actors/membership/join_diagnoser.hpp"
@@ -70,6 +71,7 @@ void node_builder::build(running_node& result) {
   add(parts_.context.events);
   parts_.skills->get()->publish_problems(parts_.context, {});
   start_images();
+  start_secrets();
   start_supervision();
   start_builds();
   if (parts_.config.coordinator)
@@ -127,6 +129,22 @@ void node_builder::start_images() {
   images_ = start(image_exchange, with);
 }
 
+/// Before anybody who has an instance started.
+void node_builder::start_secrets() {
+  const auto& config = parts_.config;
+  secret_keeper_config with;
+  with.context = parts_.context;
+  with.node = config.name;
+  with.folder = config.data_dir / "secrets";
+  with.places = memory_places();
+  with.place_name = place_name_of(config.data_dir);
+  with.names = secret_names_;
+  for (const auto& row : data_.instances)
+    if (auto names = secrets_of(row.spec); is_live(row.state) && !names.empty())
+      with.given[row.spec.instance] = std::move(names);
+  parts_.services->secrets = start_blocking(secret_keeper, with);
+}
+
 void node_builder::start_supervision() {
   auto& config = parts_.config;
   store_ = start_blocking(state_store, parts_.context, data_.database);
@@ -151,16 +169,18 @@ void node_builder::start_supervision() {
   supervision.learns_place = !config.coordinator;
   supervision.environment = parts_.edges->environment;
   supervision.grants = grants_in(config);
+  supervision.secrets = parts_.services->secrets;
   parts_.services->supervisor = start(container_supervisor, supervision);
   resource_probe_config probing;
   probing.host.data_dir = config.data_dir.string();
   probing.bound = bound_;
   const auto probe = start_blocking(resource_probe, probing);
   mark_samples_at_heartbeats(*parts_.edges, probe);
-  parts_.agent = start(
-      node_agent, node_agent_config{config.name, config.labels, config.devices,
-                                    parts_.services->supervisor, probe,
-                                    config.cpu_floor, config.grants});
+  parts_.agent =
+      start(node_agent,
+            node_agent_config{config.name, config.labels, config.devices,
+                              parts_.services->supervisor, probe,
+                              config.cpu_floor, config.grants, secret_names_});
 }
 
 void node_builder::start_coordination() {

@@ -2,6 +2,7 @@
 
 #include "actors/core/actor_context.hpp"
 #include "actors/edge/host/host_probe_capacity.hpp"
+#include "actors/instances/secrets/secret_names.hpp"
 #include "actors/instances/skills/skill_catalogue.hpp"
 #include "actors/membership/membership.hpp"
 #include "actors/node/node.hpp"
@@ -51,6 +52,7 @@ private:
 
   std::function<runtime_actor(container_listener_actor)> make_runtime();
   void start_images();
+  void start_secrets();
   void start_supervision();
   void start_coordination();
   scheduler_actor start_scheduler(std::shared_ptr<search_guard> guard);
@@ -78,6 +80,7 @@ private:
   state_store_actor store_;
   build_fetcher_actor fetcher_;
   image_exchange_actor images_; ///< Invalid: there is no engine.
+  shared_secret_names secret_names_ = std::make_shared<secret_names>();
 };
 
 } // namespace roscell

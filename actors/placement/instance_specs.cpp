@@ -62,6 +62,8 @@ std::vector<instance_spec> make_specs(const allocated_task& task) {
     spec.environment.insert(option.environment.begin(),
                             option.environment.end());
     spec.arguments = x.step.arguments;
+    spec.secrets = x.step.secrets;
+    spec.secret_env = x.step.secret_env;
     spec.resources = option.resources;
     spec.life = life_of(x.step, option, build.safe_state);
     result.push_back(std::move(spec));

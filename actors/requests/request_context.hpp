@@ -26,8 +26,9 @@ struct node_services {
   cell_coordinator_actor coordinator;
   scheduler_actor scheduler;
   container_supervisor_actor supervisor;
-  exec_host_actor execs;     ///< Invalid in tests that run no commands.
-  build_keeper_actor keeper; ///< Invalid in tests that keep none.
+  exec_host_actor execs;       ///< Invalid in tests that run no commands.
+  secret_keeper_actor secrets; ///< The same.
+  build_keeper_actor keeper;   ///< Invalid in tests that keep none.
   membership_actor membership;
   node_actor node;
   reach_prober_actor prober;

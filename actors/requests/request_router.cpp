@@ -5,6 +5,7 @@
 #include "actors/core/watching.hpp"
 #include "actors/edge/http/limits.hpp"
 #include "actors/requests/handler_pipeline.hpp"
+#include "actors/requests/secret_requests.hpp"
 #include "messages/event_kinds.hpp"
 #include "schemas/document.hpp"
 #include "schemas/message_catalogue.hpp"
@@ -276,7 +277,7 @@ caf::result<request_routed> route(request_router_self self,
   if (auto why = request.only.empty()
                      ? validate_request(document)
                      : validate_message(document, {message_kind::request}))
-    return refuse_early(self, *why);
+    return refuse_early(self, without_value(document, *why));
   const auto type = document.at("type").get<std::string>();
   if (!request.only.empty() && type != request.only)
     return refuse_early(self,
@@ -284,6 +285,8 @@ caf::result<request_routed> route(request_router_self self,
                          "only a '" + request.only + "' is taken here", "/type",
                          "send it to /v1/requests"},
                         type);
+  if (auto why = refuse_from_afar(type, request.from))
+    return refuse_early(self, *why, type);
   note_begin(self, request, type, document);
   note_sender(request, type, document);
   if (is_for_others(*st.services, type, document))
@@ -291,7 +294,8 @@ caf::result<request_routed> route(request_router_self self,
   const auto* run = st.registry->find(type);
   if (!run)
     return pass_on(self, type, document);
-  const auto id = document.value("request_id", "");
+  const auto id = may_be_remembered(type) ? document.value("request_id", "")
+                                          : std::string{};
   auto promise = self->make_response_promise<request_routed>();
   if (!id.empty() && recall(self, type, id, document.dump(), promise))
     return promise;

@@ -36,7 +36,8 @@ failure not_found(const http_request& request) {
       "/v1/hello, /v1/node, /v1/cost, /v1/actors/{name}, /v1/cell, /v1/cells, "
       "/v1/tasks, /v1/tasks/{task}, the same with /placement or /trace, "
       "/v1/instances, /v1/instances/{id}, the same with /logs, /v1/skills, "
-      "/v1/topics, /v1/events, /v1/builds/{hash}, the same with /manifest or "
+      "/v1/secrets, /v1/topics, /v1/events, /v1/builds/{hash}, the same with "
+      "/manifest or "
       "/pieces/{n} (GET and POST), /metrics and /healthz"};
 }
 
@@ -147,6 +148,8 @@ rest_route query_route(const http_request& request,
       return ask({{"type", "topic_query"}});
     if (what == "instances")
       return ask({{"type", "instance_query"}});
+    if (what == "secrets")
+      return ask({{"type", "secret_query"}});
     if (what == "skills")
       return ask({{"type", "skill_query"}, {"brief", flag(request, "brief")}});
     if (what == "requests")

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #include <string_view>
 
 namespace roscell::engine {
@@ -103,6 +104,7 @@ environment read_environment(const variable_lookup& lookup) {
   result.instance = optional_text(lookup, "ROSCELL_INSTANCE");
   result.operation = optional_text(lookup, "ROSCELL_OPERATION");
   result.deployment = optional_text(lookup, "ROSCELL_DEPLOYMENT");
+  result.secrets_folder = optional_text(lookup, "ROSCELL_SECRETS");
   result.model = required_text(lookup, "ROSCELL_MODEL");
   result.inputs = read_streams(lookup, "ROSCELL_INPUTS", 1);
   result.outputs = read_streams(lookup, "ROSCELL_OUTPUTS", 0);
@@ -116,6 +118,26 @@ environment read_environment(const variable_lookup& lookup) {
   if (usec)
     result.watchdog = std::chrono::microseconds{*usec};
   result.health = optional_text(lookup, "ROSCELL_HEALTH") == "1";
+  return result;
+}
+
+std::string environment::secret(const std::string& name) const {
+  // As much as a node takes.
+  constexpr std::size_t most_bytes = 64 * 1024;
+  const auto refuse = [&name](const std::string& why) {
+    throw start_error("the secret '" + name + "' " + why);
+  };
+  if (secrets_folder.empty() || name.empty() || name[0] == '.'
+      || name.find('/') != std::string::npos)
+    refuse("is not given to this step: name it in the step's \"secrets\"");
+  std::ifstream file{secrets_folder + '/' + name, std::ios::binary};
+  if (!file)
+    refuse("is not given to this step: name it in the step's \"secrets\"");
+  std::string result(most_bytes + 1, '\0');
+  file.read(result.data(), static_cast<std::streamsize>(result.size()));
+  result.resize(static_cast<std::size_t>(file.gcount()));
+  if (file.bad() || result.size() > most_bytes)
+    refuse("cannot be read, or is longer than 64 KiB");
   return result;
 }
 

@@ -2,6 +2,8 @@
 
 #include "roscell/skill/errors.hpp"
 
+#include "test/temp_folder.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <map>
@@ -42,6 +44,21 @@ std::string complaint(const std::string& name, const std::string& value) {
 }
 
 } // namespace
+
+TEST_CASE("a skill reads a secret that its step names, and no other file") {
+  const roscell::test::temp_folder folder{"secrets/key", "value\n"};
+  folder.write("outside", "x");
+  folder.write("secrets/long", std::string(64 * 1024 + 1, 'x'));
+  auto from = complete();
+  CHECK_THROWS_WITH(read(from).secret("key"), Contains("\"secrets\""));
+  from["ROSCELL_SECRETS"] = folder / "secrets";
+  const auto env = read(from);
+  CHECK(env.secret("key") == "value\n");
+  CHECK_THROWS_WITH(env.secret("none"), Contains("secret 'none' is not given"));
+  CHECK_THROWS_AS(env.secret("../outside"), start_error);
+  CHECK_THROWS_AS(env.secret(""), start_error);
+  CHECK_THROWS_WITH(env.secret("long"), Contains("64 KiB"));
+}
 
 TEST_CASE("the environment of a skill has sensible defaults") {
   auto env = read(complete());

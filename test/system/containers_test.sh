@@ -6,6 +6,7 @@ variants=(docker podman rootless)
 . test/system/scenes/limited.sh
 . test/system/scenes/terminal.sh
 . test/system/scenes/commands.sh
+. test/system/scenes/secrets.sh
 
 before_all() {
   start_engine
@@ -548,4 +549,36 @@ test_a_command_in_a_container_ends_with_its_client_its_instance_and_its_node() {
   begin_long
   stop_node head KILL
   long_ends 3 'the command is out of reach'
+}
+
+test_a_container_reads_its_secrets_and_nobody_else_has_them() {
+  local folder since
+  start_alone
+  printf %s "$key_value" | give head key
+  printf %s "$pass_value" | give head pass
+  run_with_secrets t
+  container=$(get head "/v1/instances/$instance" | jq -r '.instances[0].container')
+  expect "its file" "$(to head exec -n "$instance" -- cat /run/secrets/key)" "$key_value"
+  expect "its variables" "$(to head exec -n "$instance" -- sh -c 'echo "$PASSWORD $ROSCELL_SECRETS"')" \
+    "$pass_value /run/secrets"
+  expect "its mode" "$(to head exec -n "$instance" -- stat -c %a /run/secrets/key)" 400
+  to head exec -n "$instance" -- sh -c 'echo x > /run/secrets/other' 2> "$scratch/err" \
+    && fail "it can be written"
+  engine image inspect "$(inspect '{{.Image}}')" > "$scratch/answer"
+  not_in "the image" "$scratch/answer"
+  nobody_has_them head
+  lines_come t first
+  folder=$(inspect '{{range .Mounts}}{{if eq .Destination "/run/secrets"}}{{.Source}}{{end}}{{end}}')
+  expect "where it lies" "$(stat -f -c %T "$folder")" tmpfs
+  printf other-key | give head key
+  since=$("$ROSCELL" events --to "$scratch/head/node.sock" --no-follow -o json 2> /dev/null \
+    | jq -s 'map(.sequence) | max')
+  engine kill -s KILL "$container" > "$scratch/killed" 2>&1
+  await head ".event == \"instance_changed\" and .subject == \"$instance\"
+    and .data.state == \"running\"" "$since" > /dev/null
+  expect "after a new start" "$(to head exec -n "$instance" -- cat /run/secrets/key)" other-key
+  lines_come t second
+  expect "all frames" "$(wc -l < "$scratch/data/t.out")" 10
+  terminate t
+  [[ ! -e $folder ]] || fail "its files are left: $(ls -l "$folder")"
 }

@@ -73,6 +73,10 @@ void add_describe_command(CLI::App& app, action& chosen);
 void add_events_command(CLI::App& app, action& chosen);
 void add_logs_command(CLI::App& app, action& chosen);
 void add_exec_command(CLI::App& app, action& chosen);
+
+/// set, list and remove, below `secret`.
+void add_secret_command(CLI::App& app, action& chosen);
+
 void add_shell_command(CLI::App& app, action& chosen);
 void add_completion_command(CLI::App& app, action& chosen);
 

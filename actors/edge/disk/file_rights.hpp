@@ -24,6 +24,7 @@ std::string user_text(uid_t user);
 /// What a user may do with a file, as the three bits of its mode.
 enum class access_right : unsigned {
   pass = 1,           ///< Through a folder, without seeing what is in it.
+  read = 4,           ///< A file.
   read_and_write = 6, ///< A file, a FIFO or a socket.
 };
 

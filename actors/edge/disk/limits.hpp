@@ -4,6 +4,16 @@
 
 #include <cstddef>
 
+/// Secrets of a node.
+namespace roscell::limits::secret {
+
+/// On one node.
+constexpr size_t most = 256;
+/// Of one value: more than any key or certificate has.
+constexpr size_t bytes = 64 * kib;
+
+} // namespace roscell::limits::secret
+
 /// Builds of skills, as they are stored and passed on.
 namespace roscell::limits::build {
 

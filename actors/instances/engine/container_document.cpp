@@ -23,6 +23,9 @@ constexpr int64_t mib = 1024 * 1024;
 constexpr const char* exit_file_inside = "/opt/roscell/exit";
 constexpr const char* fence_inside = "/opt/roscell/fence";
 
+/// Where engines have their own secrets, too.
+constexpr const char* secrets_inside = "/run/secrets";
+
 /// Docker refuses less.
 constexpr int64_t least_memory = 6 * mib;
 
@@ -60,6 +63,8 @@ json environment_json(const start_container& request) {
   // The image's own setting would be replaced, and the libraries not found.
   if (const auto i = variables.find("LD_LIBRARY_PATH"); i != variables.end())
     i->second = std::string{image_library_dir} + ':' + i->second;
+  if (!request.secrets_folder.empty())
+    variables[secrets_variable] = secrets_inside;
   // The only GPU that a container sees is its first.
   if (request.gpu >= 0)
     variables["CUDA_VISIBLE_DEVICES"] = "0";
@@ -163,6 +168,8 @@ json container_document(const start_container& request,
   seen.mounts.push_back({shim.exit_file, exit_file_inside, false});
   if (is_fenced(request))
     seen.mounts.push_back({shim.fence, fence_inside, true});
+  if (!request.secrets_folder.empty())
+    seen.mounts.push_back({request.secrets_folder, secrets_inside, true});
   return json{{"Image", request.image},
               {"User", container_user(request, setting.rootless)},
               {"Env", environment_json(request)},

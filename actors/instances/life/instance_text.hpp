@@ -12,6 +12,9 @@
 
 namespace roscell {
 
+/// Names the folder with the files of its secrets.
+constexpr const char* secrets_variable = "ROSCELL_SECRETS";
+
 /// What an instance is told by its environment: the contract of
 /// skills/engine/environment.hpp, without NOTIFY_SOCKET, which is the
 /// runtime's. The deployment option's own variables come first, the spec's

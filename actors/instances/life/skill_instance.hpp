@@ -47,8 +47,9 @@ struct skill_instance_config {
   /// when it is told; empty: it goes on.
   std::string renewal;
   environment_writer write_environment_update; ///< Empty: it cannot be told.
-  shared_skill_grants grants; ///< Null: nothing is granted to any skill.
-  std::string node;           ///< Its name, for what it says.
+  shared_skill_grants grants;  ///< Null: nothing is granted to any skill.
+  std::string node;            ///< Its name, for what it says.
+  secret_keeper_actor secrets; ///< Invalid: this node keeps none.
 };
 
 /// Owns one instance from intent to end. The diagram is in docs/protocols.md.

@@ -59,22 +59,26 @@ void grant(const skill_instance_state& st, const deployment_option& option,
 }
 
 void on_built(skill_instance_pointer self, const std::string& image,
-              const program_plan& program, const deployment_option& option) {
+              const program_plan& program, const deployment_option& option,
+              const secrets_laid_out& secrets) {
   auto& st = self->state;
   const auto& spec = st.row.spec;
   st.row.image = image;
   st.started_at = st.config.address;
   st.started_in = st.config.boot;
-  if (!may_start(self))
+  if (!may_start(self)) {
+    drop_secrets(self);
     return wait_for_contact(self);
+  }
   enter(self, instance_state::starting);
   start_container request;
   request.instance = spec.instance;
   request.image = image;
   request.command = program.command;
   request.stop_signal = program.stop_signal;
-  request.environment =
-      instance_environment(spec, option, st.config.environment);
+  request.environment = instance_environment(with_values(spec, secrets), option,
+                                             st.config.environment);
+  request.secrets_folder = secrets.folder;
   request.environment.insert(program.environment.begin(),
                              program.environment.end());
   request.labels = {
@@ -136,7 +140,11 @@ void build(skill_instance_pointer self) {
     return conclude(self, instance_state::failed, why);
   const auto& descriptor = folder->skill.descriptor;
   if (folder->in_process)
-    return on_built(self, actor_image(descriptor.operation), {}, *option);
+    return with_secrets(self,
+                        [=, image = actor_image(descriptor.operation),
+                         chosen = *option](const secrets_laid_out& secrets) {
+                          on_built(self, image, {}, chosen, secrets);
+                        });
   const auto program = program_of(self, descriptor);
   if (!program)
     return;
@@ -148,7 +156,9 @@ void build(skill_instance_pointer self) {
                     folder->path.string(), folder->skill.hash, folder->look,
                     descriptor.entry_point, option->base_image},
       [=, chosen = *option](const image_prepared& x) {
-        on_built(self, x.image, *program, chosen);
+        with_secrets(self, [=](const secrets_laid_out& secrets) {
+          on_built(self, x.image, *program, chosen, secrets);
+        });
       },
       [=](const caf::error& error) {
         self->state.row.log_tail =

@@ -171,6 +171,7 @@ void conclude(skill_instance_pointer self, instance_state last,
   st.patience.reset();
   st.concluding = true;
   st.awaits_place = false;
+  drop_secrets(self);
   st.row.unsafe_since_unix_ms = st.row.unsafe_until_unix_ms = 0;
   st.row.waits.clear();
   const auto always = st.row.spec.life.restart.policy == restart_when::always;

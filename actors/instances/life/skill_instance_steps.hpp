@@ -7,6 +7,7 @@
 #include <caf/send.hpp>
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,20 @@ store_record record_of(const skill_instance_state& st);
 /// Writes how things stand. A restarted node finds the program without it,
 /// only less of its story, so a failure is no reason to end the program.
 void note(skill_instance_pointer self);
+
+// -- skill_instance_secrets.cpp: what it is given that nobody is told ---------
+
+/// Has its secrets laid out, where it has any, and goes on. Where they cannot
+/// be, that run has failed.
+void with_secrets(skill_instance_pointer self,
+                  const std::function<void(const secrets_laid_out&)>& next);
+
+/// Its program has ended, and so have the files that it was given.
+void drop_secrets(skill_instance_pointer self);
+
+/// The specification with the values of variables that are secrets, only for
+/// the environment of its program: nothing else may have them.
+instance_spec with_values(instance_spec spec, const secrets_laid_out& given);
 
 // -- skill_instance_end.cpp: from one run to the next, or to the end ----------
 

@@ -33,7 +33,8 @@ allocation::node convert(const node_resources& x) {
                           {},
                           labels_of(x),
                           x.devices,
-                          x.cpu_compressible};
+                          x.cpu_compressible,
+                          x.secrets};
   for (const auto& gpu : x.gpus)
     result.gpus.push_back({gpu.index, convert(gpu.memory_mib)});
   return result;
@@ -193,6 +194,9 @@ void step_ways::add(const deployment_option& option, const skill_build& build) {
 allocation::step step_ways::to_search() const {
   allocation::step result{
       step_.step.id, {}, step_.step.labels, {}, step_.together};
+  result.secrets.insert(step_.step.secrets.begin(), step_.step.secrets.end());
+  for (const auto& [variable, secret] : step_.step.secret_env)
+    result.secrets.insert(secret);
   const auto devices = devices_of(step_.step);
   for (const auto& build : step_.builds)
     result.nodes_with_skill.insert(build.nodes.begin(), build.nodes.end());

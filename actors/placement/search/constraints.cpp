@@ -63,6 +63,12 @@ void check_kind(reason_list& to, const node& host, const step& wanted,
     if (!has(host.devices, device))
       add(to, reason_kind::device,
           "needs the device " + quoted(device) + ", the node does not have it");
+  for (const auto& secret : wanted.secrets)
+    if (!has(host.secrets, secret))
+      add(to, reason_kind::secret,
+          "needs the secret " + quoted(secret)
+              + ", the node does not have it: `roscell secret set " + secret
+              + "` there");
   if (way.needs_gpu && choice.gpu < 0)
     add(to, reason_kind::gpu, "needs a GPU, the node has none");
 }
@@ -111,9 +117,9 @@ void check_exclusions(reason_list& to, const problem& asked, std::size_t step,
       add(to, reason_kind::excluded, one.reason);
 }
 
-const char* const names[] = {"skill",      "architecture", "label",   "device",
-                             "gpu",        "cpu",          "memory",  "disk",
-                             "gpu_memory", "combination",  "excluded"};
+const char* const names[] = {
+    "skill", "architecture", "label", "device",     "secret",      "gpu",
+    "cpu",   "memory",       "disk",  "gpu_memory", "combination", "excluded"};
 
 } // namespace
 

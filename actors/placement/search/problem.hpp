@@ -46,6 +46,7 @@ struct node {
   /// Cores in use that their users would share with a new process. Part of
   /// `cpu.used`; only `allocate_with_floor` reads it.
   double cpu_compressible = 0;
+  std::vector<std::string> secrets; ///< Names of those that it has.
 };
 
 /// One deployment option of a step's implementation model.
@@ -79,6 +80,8 @@ struct step {
   std::set<std::string> nodes_with_skill;
   /// Steps with the same number, unless it is 0, must share a node.
   std::size_t together = 0;
+  /// Names of secrets that the node must have, whatever the deployment.
+  std::set<std::string> secrets;
 };
 
 /// A candidate that may not be taken. `node` and `deployment` are positions in
@@ -151,6 +154,7 @@ enum class reason_kind {
   architecture, ///< The deployment does not run on the node's architecture.
   label,        ///< The node lacks a label.
   device,       ///< The node lacks a device.
+  secret,       ///< The node lacks a secret.
   gpu,          ///< The node has no GPU.
   cpu,          ///< Too few cores are free.
   memory,       ///< Too little memory is free.

@@ -38,6 +38,12 @@ void add_node_requests(request_registry& registry) {
       forward_within<exec_input, exec_input_taken>(soon, &services::execs));
   registry.add(
       forward_within<exec_output_query, exec_output>(soon, &services::execs));
+  registry.add(
+      forward_within<secret_setting, secret_set>(soon, &services::secrets));
+  registry.add(
+      forward_within<secret_query, secret_list>(soon, &services::secrets));
+  registry.add(
+      forward_within<secret_removal, secret_removed>(soon, &services::secrets));
 }
 
 void add_primary_requests(request_registry& registry) {

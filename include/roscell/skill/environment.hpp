@@ -37,6 +37,8 @@ struct stream {
 ///   or `@` and an abstract name | nothing is reported |
 /// | WATCHDOG_USEC | the node takes the skill for hung after so many
 ///   microseconds without WATCHDOG=1 | no watchdog |
+/// | ROSCELL_SECRETS | folder with a file for each secret that the step names |
+///   there are none |
 /// | ROSCELL_HEALTH | 1: the node wants to know what the streams do | it is not
 ///   told |
 struct environment {
@@ -53,6 +55,12 @@ struct environment {
   std::string notify_socket;
   std::optional<std::chrono::microseconds> watchdog;
   bool health = false;
+  std::string secrets_folder; ///< Empty: the step names none.
+
+  /// The bytes of a secret that the step names in "secrets", read from its
+  /// file, 64 KiB at most. Throws start_error, whose text names the remedy,
+  /// where it has not been given.
+  std::string secret(const std::string& name) const;
 };
 
 /// Variables that have got other values while the skill runs.

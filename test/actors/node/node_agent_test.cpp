@@ -42,6 +42,8 @@ struct agent_fixture {
     config.labels = {{"room", "hall"}};
     config.devices = {"/dev/video0", "/dev/can0"};
     config.cpu_floor = 0.25;
+    config.secrets = std::make_shared<secret_names>();
+    config.secrets->set({"key", "pass"});
     config.supervisor = caf::actor_cast<container_supervisor_actor>(supervisor);
     config.probe = caf::actor_cast<resource_probe_actor>(probe);
     agent = spawn(time.system, time.context, node_agent, config);
@@ -133,6 +135,7 @@ TEST_CASE_METHOD(agent_fixture,
   const auto node = report();
   CHECK(node.name == "arm");
   CHECK(node.labels == std::map<std::string, std::string>{{"room", "hall"}});
+  CHECK(node.secrets == std::vector<std::string>{"key", "pass"});
   CHECK(node.devices == std::vector<std::string>{"/dev/video0", "/dev/can0"});
   CHECK(node.cpu.used == 0.5);
   CHECK(node.gpus.size() == 2);

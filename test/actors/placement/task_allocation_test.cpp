@@ -124,6 +124,21 @@ TEST_CASE("A plan on paper has the numbers of the paper's equations",
   CHECK(rejected[1].at("node") == "a");
 }
 
+TEST_CASE("A node is no place for a step whose secrets it does not have",
+          "[task_allocation][secrets]") {
+  auto document = two_nodes();
+  document["nodes"][0]["secrets"] = {"key"};
+  auto& step = document["request"]["pipeline"][0];
+  step["secrets"] = {"key"};
+  CHECK(plan(document).allocations[0].node == "a");
+  step["secret_env"] = {{"PASSWORD", "pass"}};
+  const auto why = refusal(document);
+  CHECK(why.code == error_code::no_feasible_allocation);
+  CHECK(why.details.find("needs the secret 'pass', the node does not have it")
+        != std::string::npos);
+  CHECK(why.details.find(R"("kind":"secret")") != std::string::npos);
+}
+
 TEST_CASE("A node is no place for what it does not grant to the skill",
           "[task_allocation][grants]") {
   auto document = two_nodes();

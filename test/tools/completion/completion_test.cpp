@@ -135,6 +135,13 @@ TEST_CASE("completion offers nodes, then cells to move them to", "[tools]") {
   CHECK(words_for("roscell logs ") == "instances-1");
 }
 
+TEST_CASE("completion offers a node's secrets, never a value", "[tools]") {
+  CHECK(words_for("roscell secret ") == "list remove set");
+  CHECK(words_for("roscell secret set ") == "secrets-1");
+  CHECK(words_for("roscell secret remove a ") == "secrets-1");
+  CHECK(words_for("roscell secret set key --file /etc/host") == ":files");
+}
+
 TEST_CASE("no shell gets a name that it could expand", "[tools]") {
   CHECK_FALSE(has(words_for("roscell logs "), "bad"));
 }

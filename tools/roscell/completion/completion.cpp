@@ -195,6 +195,7 @@ constexpr name_source name_sources[] = {
     {"tasks", "/v1/tasks", "", "tasks", "/task"},
     {"tasks", "/v1/tasks", "", "sets", "/task"},
     {"instances", "/v1/instances", "", "instances", "/spec/instance"},
+    {"secrets", "/v1/secrets", "", "secrets", "/name"},
     {"actors", "/v1/node?actors=1", "", "actors", "/name"},
     {"transfers", "/v1/requests", transfers_asked, "transfers", "/transfer"},
 };

@@ -29,7 +29,8 @@ class live_names {
 public:
   explicit live_names(const node_client& node) : node_{node} {}
 
-  /// @param kind "nodes", "cells", "tasks", "instances" or "transfers".
+  /// @param kind "nodes", "cells", "tasks", "instances", "transfers" or
+  /// "secrets".
   const std::vector<std::string>& of(const std::string& kind);
 
 private:

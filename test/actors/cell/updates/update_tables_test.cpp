@@ -117,6 +117,23 @@ TEST_CASE("what the cell adds to an environment changes no step, and what a "
         == std::vector<std::string>{"environment.KEY"});
 }
 
+TEST_CASE("a step that names another secret is changed",
+          "[update_tables][secrets]") {
+  auto asked = question({step("a"), step("b")});
+  asked.placed[0].spec.secrets = {"key"};
+  asked.placed[0].spec.secret_env = {{"PASSWORD", "pass"}};
+  asked.steps[0].step.secrets = {"key"};
+  asked.steps[0].step.secret_env = {{"PASSWORD", "pass"}};
+  CHECK(compare_steps(asked).is_empty());
+  asked.steps[0].step.secret_env = {{"PASSWORD", "pass2"}};
+  auto plan = compare_steps(asked);
+  CHECK(action_of(plan, "a") == step_action::restarts);
+  CHECK(action_of(plan, "b") == step_action::stays);
+  asked.steps[0].step.secret_env = {{"PASSWORD", "pass"}};
+  asked.steps[0].step.secrets = {"key", "other"};
+  CHECK(action_of(compare_steps(asked), "a") == step_action::restarts);
+}
+
 TEST_CASE("a newer build changes a step, and one that is not there moves it",
           "[update_tables]") {
   auto plan = compare_steps(question({step("a", "bb"), step("b")}));

@@ -51,6 +51,22 @@ container_files found_files(const start_container& order) {
 
 } // namespace
 
+TEST_CASE("a container sees its secrets where engines have theirs, and cannot "
+          "change them") {
+  auto order = echo_request();
+  order.environment["ROSCELL_SECRETS"] = "/run/roscell-secrets-1/i";
+  order.secrets_folder = "/run/roscell-secrets-1/i";
+  const auto x = document(order);
+  CHECK(x["Env"]
+        == json::array({"A=1", "NOTIFY_SOCKET=/run/roscell/notify",
+                        "ROSCELL_SECRETS=/run/secrets"}));
+  CHECK(x["HostConfig"]["Mounts"].back()
+        == json{{"Type", "bind"},
+                {"Source", "/run/roscell-secrets-1/i"},
+                {"Target", "/run/secrets"},
+                {"ReadOnly", true}});
+}
+
 TEST_CASE("a container shares network and memory, and is told where to speak") {
   const auto x = document(echo_request());
   CHECK(x["Image"] == "roscell/echo:1");

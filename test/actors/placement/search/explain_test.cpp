@@ -45,6 +45,21 @@ TEST_CASE("a shortage of CPU is told in cores") {
   CHECK(why.short_by == 0.5);
 }
 
+TEST_CASE("a node without a secret of a step is none for it, and what sets it "
+          "is told") {
+  auto asked = one_of_each();
+  asked.steps[0].secrets = {"key", "pass"};
+  asked.nodes[0].secrets = {"other", "pass"};
+  auto why = only_reason(asked);
+  CHECK(why.kind == reason_kind::secret);
+  CHECK(std::string{to_string(why.kind)} == "secret");
+  CHECK(why.text
+        == "needs the secret 'key', the node does not have it: `roscell secret "
+           "set key` there");
+  asked.nodes[0].secrets.push_back("key");
+  CHECK(allocate(asked).optimal());
+}
+
 TEST_CASE("a shortage of memory is told in MiB") {
   auto asked = one_of_each();
   asked.nodes[0].memory_mib.used = 150;

@@ -1,0 +1,169 @@
+#include "messages/secret.hpp"
+#include "schemas/utf8.hpp"
+#include "tools/roscell/client/node_client.hpp"
+#include "tools/roscell/commands.hpp"
+#include "tools/roscell/common_options.hpp"
+#include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/secrets/secret_value.hpp"
+#include "tools/roscell/view/format.hpp"
+#include "tools/roscell/view/terminal.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <memory>
+#include <vector>
+
+namespace roscell::cli {
+
+namespace {
+
+/// As long as a node's disk may take.
+constexpr std::chrono::seconds answer_limit{15};
+
+struct secret_options {
+  connection_options connection;
+  std::string output = "table";
+  std::vector<std::string> names;
+  value_origin origin;
+};
+
+using secret_options_ptr = std::shared_ptr<secret_options>;
+
+/// Asked before the value is, so that it is never sent on a way that others can
+/// listen to.
+void expect_this_host(const target& node) {
+  const auto& host = node.host;
+  if (node.is_local() || host == "localhost" || host == "::1"
+      || host.compare(0, 4, "127.") == 0)
+    return;
+  throw command_error{exit_usage,
+                      "a secret is set on the host of its node only: its value "
+                      "would travel in clear to "
+                          + printable(node.text()),
+                      "run it there: ssh " + printable(host)
+                          + " roscell secret set NAME < FILE"};
+}
+
+int set_secret(const secret_options& options) {
+  const node_client node{options.connection};
+  expect_this_host(node.where());
+  const auto& name = options.names.front();
+  const secret_setting request{
+      name, to_base64(read_secret_value(name, options.origin))};
+  const auto reply =
+      node.ask(message_json(request), answer_limit).get<secret_set>();
+  print_note("secret '" + printable(name) + "' is "
+             + (reply.replaced ? "replaced: instances that have it get the new "
+                                 "value with their next start"
+                               : "set"));
+  return exit_done;
+}
+
+table secret_table_of(const secret_list& known, int64_t now_unix_ms) {
+  table result;
+  result.columns = {{"NAME"}, {"SET"}, {"INSTANCES", align::left, 1}};
+  for (const auto& x : known.secrets)
+    result.rows.push_back({x.name, format_since(x.set_unix_ms, now_unix_ms),
+                           joined(x.instances, ", ")});
+  return result;
+}
+
+int list_secrets(const secret_options& options) {
+  const node_client node{options.connection};
+  const auto reply = node.get("/v1/secrets");
+  const auto style = view_style_now();
+  if (options.output == "json")
+    print(pretty(reply.at("secrets")));
+  else
+    print(secret_table_of(reply.get<secret_list>(), style.now_unix_ms)
+              .render(style.text));
+  return exit_done;
+}
+
+int remove_secrets(const secret_options& options) {
+  const node_client node{options.connection};
+  for (const auto& name : options.names) {
+    const auto reply =
+        node.ask(message_json(secret_removal{name}), answer_limit)
+            .get<secret_removed>();
+    print_note("secret '" + printable(name) + "' is removed"
+               + (reply.instances.empty()
+                      ? std::string{}
+                      : "; until they end these have it: "
+                            + printable(joined(reply.instances, ", "))));
+  }
+  return exit_done;
+}
+
+void add_set_command(CLI::App& secrets, action& chosen) {
+  auto options = std::make_shared<secret_options>();
+  auto* command = secrets.add_subcommand(
+      "set", "Keep a value on this host's node, for steps that name it.");
+  command->footer("The value comes from standard input, or from a file; at a "
+                  "terminal it is "
+                  "asked for twice, and\nnot shown. It is never an argument, "
+                  "which all users "
+                  "of a host can read, and never sent to\nanother host. "
+                  "Instances get a new "
+                  "value with their next start.\n\n"
+                  "Examples:\n  roscell secret set broker-key\n"
+                  "  roscell secret set broker-key --file key.pem\n"
+                  "  pass show broker | roscell secret set broker-key");
+  command->add_option("SECRET", options->names, "Its name, as steps say it")
+      ->required()
+      ->expected(1)
+      ->option_text(" ");
+  command
+      ->add_option("--file", options->origin.file,
+                   "Take these bytes, as they are")
+      ->option_text("PATH");
+  command->add_flag("--keep-newline", options->origin.keep_newline,
+                    "The line end at the end of standard input is part of it");
+  add_connection_options(*command, options->connection);
+  command->callback([&chosen, options] {
+    chosen = [options] { return set_secret(*options); };
+  });
+}
+
+void add_list_command(CLI::App& secrets, action& chosen) {
+  auto options = std::make_shared<secret_options>();
+  auto* command = secrets.add_subcommand(
+      "list", "List a node's secrets, without their values.");
+  command->footer("Examples:\n  roscell secret list\n"
+                  "  roscell secret list --to 192.168.1.10 -o json");
+  add_output_option(*command, options->output);
+  add_connection_options(*command, options->connection);
+  command->callback([&chosen, options] {
+    chosen = [options] { return list_secrets(*options); };
+  });
+}
+
+void add_remove_command(CLI::App& secrets, action& chosen) {
+  auto options = std::make_shared<secret_options>();
+  auto* command =
+      secrets.add_subcommand("remove", "Have a node forget secrets.");
+  command->footer("What runs keeps its value until it ends; it does not start "
+                  "again without.\n\n"
+                  "Examples:\n  roscell secret remove broker-key");
+  command->add_option("SECRET", options->names, "Names of secrets")
+      ->required()
+      ->option_text("...");
+  add_connection_options(*command, options->connection);
+  command->callback([&chosen, options] {
+    chosen = [options] { return remove_secrets(*options); };
+  });
+}
+
+} // namespace
+
+void add_secret_command(CLI::App& app, action& chosen) {
+  auto* secrets = app.add_subcommand(
+      "secret", "Secrets of a node: values for steps that nobody is told.");
+  secrets->require_subcommand(1);
+  add_set_command(*secrets, chosen);
+  add_list_command(*secrets, chosen);
+  add_remove_command(*secrets, chosen);
+}
+
+} // namespace roscell::cli
