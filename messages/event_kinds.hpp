@@ -57,6 +57,15 @@ inline constexpr event_kind store_failed{
 inline constexpr event_kind store_caught_up{
     "store_caught_up", "-", "every node",
     "All that waited for the data directory is written."};
+inline constexpr event_kind secret_set{
+    "secret_set", "secret", "every node",
+    "The node has a value for a secret, in place of another if `replaced`."};
+inline constexpr event_kind secret_removed{"secret_removed", "secret",
+                                           "every node",
+                                           "The node has forgotten a secret."};
+inline constexpr event_kind secret_ignored{
+    "secret_ignored", "-", "every node, at its start",
+    "Something among the files of its secrets is none: `path` and `reason`."};
 inline constexpr event_kind record_ignored{
     "record_ignored", "key", "every node, at its start",
     "A record of the data directory cannot be read: `table` and `reason`."};
@@ -224,6 +233,25 @@ inline constexpr event_kind task_update_reverted{
     "task_update_reverted", "task", "coordinator",
     "Its update has come to nothing: all that was replaced is put back, for "
     "this `reason`."};
+inline constexpr event_kind parameters_changed{
+    "parameters_changed", "instance", "coordinator",
+    "It works with other parameters, without a restart, and its task says so: "
+    "`task`, `step`, `node`, what these `parameters` are and the `former` "
+    "ones."};
+inline constexpr event_kind set_applied{
+    "set_applied", "set of tasks", "coordinator",
+    "It is to be as a request says: `revision`, `nodes` that it is for, and "
+    "how many `changes` that means."};
+inline constexpr event_kind set_changed{
+    "set_changed", "set of tasks", "coordinator",
+    "It is for so many `nodes`, its task is `running` on so many of them as it "
+    "is to, and on so many something is `pending`."};
+inline constexpr event_kind set_stuck{
+    "set_stuck", "set of tasks", "coordinator",
+    "Its task on a `node` cannot be made what it is to be, for this `reason`."};
+inline constexpr event_kind set_removed{
+    "set_removed", "set of tasks", "coordinator",
+    "It is no more, and its `tasks` are ended."};
 inline constexpr event_kind step_stranded{
     "step_stranded", "instance, the old one", "coordinator",
     "It is to move, or was preempted, and has no place; once a `reason`."};

@@ -42,6 +42,7 @@ constexpr std::size_t most_counted = 16;
 /// And no more bytes of a remark. What an author says has any length, and a
 /// datagram that is too long is not read at all.
 constexpr std::size_t most_remark_bytes = 256;
+constexpr std::size_t most_refusal_bytes = 512;
 
 } // namespace
 
@@ -187,13 +188,26 @@ bool primitive_base_engine::survives_new_address() const {
             });
 }
 
+/// A node starts a skill again that does not hear of another address.
+void primitive_base_engine::listen_to_node() {
+  std::vector<told_lines> heard{
+      {env_.notify_socket + ".parameters", [this](const std::string& line) {
+         if (auto wanted = read_told_parameters(line); wanted.number > 0)
+           use_parameters(std::move(wanted));
+       }}};
+  if (survives_new_address())
+    heard.push_back(
+        {env_.notify_socket + ".environment", [this](const std::string& line) {
+           if (auto reported = read_changed_variables(line); !reported.empty())
+             use_variables(std::move(reported));
+         }});
+  news_.emplace(std::move(heard));
+}
+
 void primitive_base_engine::report_ready() {
   if (!socket_.enabled())
     return;
-  if (survives_new_address())
-    news_.emplace(env_.notify_socket, [this](changed_variables reported) {
-      use_variables(std::move(reported));
-    });
+  listen_to_node();
   if (auto error = socket_.send("READY=1"))
     say_("cannot report READY=1 to NOTIFY_SOCKET '" + env_.notify_socket
          + "': " + std::strerror(error)
@@ -276,17 +290,48 @@ void primitive_base_engine::use_variables(changed_variables reported) {
   queue_.interpose([this] { between_frames(); });
 }
 
+void primitive_base_engine::use_parameters(told_parameters wanted) {
+  {
+    const std::lock_guard guard{reported_mutex_};
+    wanted_ = std::move(wanted);
+  }
+  queue_.interpose([this] { between_frames(); });
+}
+
 /// One request does not push out the other.
 void primitive_base_engine::between_frames() {
   if (safety_wanted_.exchange(false))
     pass_on_request();
   std::optional<changed_variables> reported;
+  std::optional<told_parameters> wanted;
   {
     const std::lock_guard guard{reported_mutex_};
     reported.swap(reported_);
+    wanted.swap(wanted_);
   }
+  if (wanted)
+    pass_on_parameters(*wanted);
   if (reported)
     move_to(*reported);
+}
+
+/// What the node waits for is said at once: from the next frame on they count.
+void primitive_base_engine::pass_on_parameters(const told_parameters& wanted) {
+  const auto number = std::to_string(wanted.number);
+  alive_.work_begins(liveness::clock::now());
+  try {
+    executor_->on_parameters(parameters::parse(wanted.values));
+    socket_.send("ROSCELL_PARAMETERS_TAKEN=" + number);
+    say_("it works with these parameters: " + wanted.values);
+  } catch (...) {
+    auto why = current_error();
+    say_("it does not take other parameters: " + why);
+    why.resize(std::min(why.size(), most_refusal_bytes));
+    // A datagram has one line for each thing.
+    std::replace(why.begin(), why.end(), '\n', ' ');
+    socket_.send("ROSCELL_PARAMETERS_REFUSED=" + number + " " + why);
+  }
+  work_has_ended();
 }
 
 void primitive_base_engine::pass_on_request() {

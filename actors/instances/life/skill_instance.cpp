@@ -96,6 +96,10 @@ void on_alarm(skill_instance_pointer self) {
     return on_patience_over(self);
   if (st.patience)
     st.timer.set(self, *st.patience);
+  if (st.change && now >= st.change->until)
+    on_change_late(self);
+  if (st.change)
+    st.timer.set(self, st.change->until);
   if (!st.deadline)
     return;
   if (now < *st.deadline)
@@ -144,6 +148,7 @@ void on_notified(skill_instance_pointer self, const instance_notified& x) {
   if (x.alive && st.row.state == instance_state::running)
     on_sign_of_life(self);
   follow_health(self, x);
+  on_change_told(self, x);
   if (x.heard && st.listening)
     judge(self);
 }

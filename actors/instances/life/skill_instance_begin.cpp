@@ -199,6 +199,7 @@ void resume(skill_instance_pointer self, const std::string& container) {
   auto& st = self->state;
   ++st.phase;
   st.row.container = container;
+  st.works_with_spec = false;
   recall_endpoints(self);
   switch (st.row.state) {
   case instance_state::running:
