@@ -107,7 +107,7 @@ json only_named(const json& values, const json& names) {
   return result;
 }
 
-parameters_changed reply_of(const parameter_change_plan& plan) {
+parameters_changed reply_to_change(const parameter_change_plan& plan) {
   const auto& spec = plan.placed.spec;
   return {spec.instance,        spec.task,        spec.step, plan.placed.node,
           text_of(plan.former), text_of(plan.now)};
@@ -127,7 +127,8 @@ void restate(coordinator_pointer self, const deployment& x) {
 
 /// The change is over, one way or the other.
 /// @param put_back The program may work with what is not written down.
-void end_change(coordinator_pointer self, const plan_ptr& plan, bool put_back) {
+void close_change(coordinator_pointer self, const plan_ptr& plan,
+                  bool put_back) {
   auto& changes = self->state.pending.parameter_changes;
   const auto& instance = plan->placed.spec.instance;
   const auto found = changes.find(instance);
@@ -141,18 +142,18 @@ void end_change(coordinator_pointer self, const plan_ptr& plan, bool put_back) {
 
 void on_written(coordinator_pointer self, const plan_ptr& plan) {
   const auto& spec = plan->placed.spec;
-  end_change(self, plan, false);
+  close_change(self, plan, false);
   publish_task_event(self, events::parameters_changed, spec.task, spec.instance,
                      {{"task", spec.task},
                       {"step", spec.step},
                       {"node", plan->placed.node},
                       {"parameters", short_values(plan->wanted)},
                       {"former", short_values(plan->former)}});
-  plan->promise.deliver(reply_of(*plan));
+  plan->promise.deliver(reply_to_change(*plan));
 }
 
 void put_back(coordinator_pointer self, const plan_ptr& plan, failure why) {
-  end_change(self, plan, true);
+  close_change(self, plan, true);
   why.message += "; the parameters of instance '" + plan->placed.spec.instance
                  + "' are put back";
   plan->promise.deliver(to_error(why));
@@ -190,7 +191,7 @@ void write_down(coordinator_pointer self, const plan_ptr& plan) {
 void on_not_set(coordinator_pointer self, const plan_ptr& plan,
                 const caf::error& error) {
   const auto why = to_failure(error);
-  end_change(self, plan, why.code != error_code::conflict);
+  close_change(self, plan, why.code != error_code::conflict);
   plan->promise.deliver(error);
 }
 
@@ -214,7 +215,7 @@ change_parameters(coordinator_pointer self, const parameter_change& request) {
   plan->now = before;
   plan->now.update(plan->wanted);
   if (plan->now == before)
-    return reply_of(*plan);
+    return reply_to_change(*plan);
   plan->promise = self->make_response_promise<parameters_changed>();
   st.pending.parameter_changes[request.instance] = {placed->spec.task, false};
   self->request(st.registry.find_name(placed->node)->agent,

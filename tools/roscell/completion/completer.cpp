@@ -289,6 +289,7 @@ constexpr value_source sources[] = {
     {"SUBJECT", "ids tasks"},
     {"TASK|INSTANCE", "ids instances"},
     {"INSTANCE", "ids instances"},
+    {"PARAMETER", "ids parameters"},
     {"SHELL", "words bash zsh fish"},
     {"COMMAND", "commands"},
     {"PROGRAM", "nothing"},
