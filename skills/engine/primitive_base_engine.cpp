@@ -190,9 +190,9 @@ bool primitive_base_engine::survives_new_address() const {
 
 /// A node starts a skill again that does not hear of another address.
 void primitive_base_engine::listen_to_node() {
-  std::vector<told_lines> heard{
+  std::vector<heard_lines> heard{
       {env_.notify_socket + ".parameters", [this](const std::string& line) {
-         if (auto wanted = read_told_parameters(line); wanted.number > 0)
+         if (auto wanted = read_parameter_line(line); wanted.number > 0)
            use_parameters(std::move(wanted));
        }}};
   if (survives_new_address())
@@ -290,7 +290,7 @@ void primitive_base_engine::use_variables(changed_variables reported) {
   queue_.interpose([this] { between_frames(); });
 }
 
-void primitive_base_engine::use_parameters(told_parameters wanted) {
+void primitive_base_engine::use_parameters(ordered_parameters wanted) {
   {
     const std::lock_guard guard{reported_mutex_};
     wanted_ = std::move(wanted);
@@ -303,7 +303,7 @@ void primitive_base_engine::between_frames() {
   if (safety_wanted_.exchange(false))
     pass_on_request();
   std::optional<changed_variables> reported;
-  std::optional<told_parameters> wanted;
+  std::optional<ordered_parameters> wanted;
   {
     const std::lock_guard guard{reported_mutex_};
     reported.swap(reported_);
@@ -316,7 +316,8 @@ void primitive_base_engine::between_frames() {
 }
 
 /// What the node waits for is said at once: from the next frame on they count.
-void primitive_base_engine::pass_on_parameters(const told_parameters& wanted) {
+void primitive_base_engine::pass_on_parameters(
+    const ordered_parameters& wanted) {
   const auto number = std::to_string(wanted.number);
   alive_.work_begins(liveness::clock::now());
   try {

@@ -58,7 +58,7 @@ public:
   /// Has the executor take these parameters between two frames, and tells the
   /// node what became of it; of what is told meanwhile the last word counts.
   /// May be called from any thread, at any time, repeatedly.
-  void use_parameters(told_parameters wanted);
+  void use_parameters(ordered_parameters wanted);
 
   /// For instance `frames=120 dropped=0 failed=0 median_us=85 p99_us=210
   /// times_us=10900 times=119,1,0,0,0,0,0,0,0,0,0 age_us=4200`: of the input
@@ -98,7 +98,7 @@ private:
   std::string reported_status() const;
   void between_frames();
   void pass_on_request();
-  void pass_on_parameters(const told_parameters& wanted);
+  void pass_on_parameters(const ordered_parameters& wanted);
   void move_to(const changed_variables& reported);
   void make_connections_anew(const changed_variables& reported);
   void work_has_ended();
@@ -124,7 +124,7 @@ private:
   std::atomic<bool> safety_wanted_{false};
   std::mutex reported_mutex_; // Guards what follows.
   std::optional<changed_variables> reported_;
-  std::optional<told_parameters> wanted_;
+  std::optional<ordered_parameters> wanted_;
   std::optional<fifo_watch> news_; // Calls until it is gone.
 };
 

@@ -40,7 +40,7 @@ bool is_free_form(const json::json_pointer& place) {
   return !place.empty()
          && (place.back() == "parameters" || place.back() == "data"
              || place.back() == "body" || place.back() == "state"
-             || place.back() == "request");
+             || place.back() == "request" || place.back() == "former");
 }
 
 void check_valid(const std::string& schema, const json& document) {
@@ -56,7 +56,7 @@ bool has_least_form(const std::string& name) {
          && name != "plan_document" && name != "cell_formation"
          && name != "skill_added" && name != "skill_pulled"
          && name != "exec_request" && name != "task_set_request"
-         && name != "parameter_change";
+         && name != "parameter_change" && name != "set_parameters";
 }
 
 } // namespace

@@ -130,7 +130,7 @@ struct tuned_skill {
     return folder / "notify.parameters";
   }
 
-  void tell(const std::string& text) const {
+  void write_line(const std::string& text) const {
     const unique_fd out{
         ::open(fifo().c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC)};
     REQUIRE(out);
@@ -169,7 +169,7 @@ TEST_CASE_METHOD(tuned_skill,
                  "hears it") {
   run_until([&](auto&) {
     CHECK(has_come(log.first));
-    tell("\n{\"number\":41,\"parameters\":{\"word\":\"b\"}}\n");
+    write_line("\n{\"number\":41,\"parameters\":{\"word\":\"b\"}}\n");
     CHECK(node.wait_for("ROSCELL_PARAMETERS_TAKEN=41"));
     prompt.set();
     CHECK(has_come(log.second));
@@ -183,10 +183,10 @@ TEST_CASE_METHOD(tuned_skill,
                  "hears why") {
   run_until([&](auto&) {
     CHECK(has_come(log.first));
-    tell("{\"number\":42,\"parameters\":{\"word\":\"long\"}}\n");
+    write_line("{\"number\":42,\"parameters\":{\"word\":\"long\"}}\n");
     CHECK(node.wait_for("ROSCELL_PARAMETERS_REFUSED=42 a word of at most "
                         "three letters is needed"));
-    tell("{\"number\":43,\"parameters\":{\"word\":7}}\n");
+    write_line("{\"number\":43,\"parameters\":{\"word\":7}}\n");
     CHECK(node.wait_for("ROSCELL_PARAMETERS_REFUSED=43 parameter 'word' must "
                         "be a text"));
     prompt.set();
@@ -199,7 +199,7 @@ TEST_CASE_METHOD(tuned_skill,
                  "an executor that takes no parameters refuses them") {
   env.model = "fixed";
   run_until([&](auto&) {
-    tell("{\"number\":1,\"parameters\":{}}\n");
+    write_line("{\"number\":1,\"parameters\":{}}\n");
     CHECK(node.wait_for("ROSCELL_PARAMETERS_REFUSED=1 this skill does not take "
                         "parameters while it runs"));
   });
@@ -212,8 +212,8 @@ TEST_CASE_METHOD(tuned_skill, "lines that tell no parameters change nothing") {
           R"({"number":"1","parameters":{}})",
           R"({"number":1,"parameters":[]})", R"({"number":1,"param)",
           R"({"number":-1,"parameters":{"word":"x"}})"})
-      tell(std::string{line} + "\n");
-    tell("{\"number\":2,\"parameters\":{\"word\":\"b\"}}\n");
+      write_line(std::string{line} + "\n");
+    write_line("{\"number\":2,\"parameters\":{\"word\":\"b\"}}\n");
     CHECK(node.wait_for("ROSCELL_PARAMETERS_TAKEN=2"));
   });
   CHECK(said.find("parameters: ") == said.rfind("parameters: "));

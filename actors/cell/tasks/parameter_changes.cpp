@@ -5,7 +5,7 @@
 #include "actors/cell/tasks/cell_tasks.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/updates/update_guard.hpp"
-#include "actors/placement/reading/parameter_wishes.hpp"
+#include "actors/placement/reading/changeable_parameters.hpp"
 #include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 

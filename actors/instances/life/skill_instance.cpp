@@ -148,7 +148,7 @@ void on_notified(skill_instance_pointer self, const instance_notified& x) {
   if (x.alive && st.row.state == instance_state::running)
     on_sign_of_life(self);
   follow_health(self, x);
-  on_change_told(self, x);
+  on_change_answered(self, x);
   if (x.heard && st.listening)
     judge(self);
 }

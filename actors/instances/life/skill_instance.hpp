@@ -140,7 +140,7 @@ struct skill_instance_state {
 
   /// Number of the change that its program was told last; 0: none by this
   /// process of the node.
-  int64_t told_change = 0;
+  int64_t last_change = 0;
   std::optional<awaited_parameters> change; ///< That is not answered.
 
   /// Its program is known to work with what its spec says. Not so of one that
@@ -151,7 +151,7 @@ struct skill_instance_state {
   int64_t correction = 0;
 
   /// Its spec has changed since its program was started.
-  bool tells_when_ready = false;
+  bool passes_on_when_ready = false;
 
   std::optional<alarm::time_point> deadline;
   alarm timer;

@@ -49,7 +49,7 @@ void forget_run(skill_instance_state& st) {
   st.missing.clear();
   st.fence_boot_ms = 0;
   st.works_with_spec = true;
-  st.tells_when_ready = false;
+  st.passes_on_when_ready = false;
   st.row.container.clear();
   st.row.status.clear();
   st.row.safe = safe_word::untold;

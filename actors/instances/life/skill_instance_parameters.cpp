@@ -60,24 +60,24 @@ caf::error not_delivered(const skill_instance_state& st,
   }
 }
 
-/// Tells the program; the answer will name `told_change`.
-parameter_delivery tell(skill_instance_pointer self,
-                        const std::string& parameters) {
+/// Tells the program; the answer will name `last_change`.
+parameter_delivery pass_on(skill_instance_pointer self,
+                           const std::string& parameters) {
   auto& st = self->state;
   if (!st.config.write_parameters)
     return parameter_delivery::no_listener;
   // Above all that an earlier run of the node has used.
-  st.told_change = std::max(st.told_change + 1, unix_now_ms());
-  return st.config.write_parameters(st.row.spec.instance, st.told_change,
+  st.last_change = std::max(st.last_change + 1, unix_now_ms());
+  return st.config.write_parameters(st.row.spec.instance, st.last_change,
                                     parameters);
 }
 
 /// Puts the program back to what is written down of it.
-void tell_spec(skill_instance_pointer self) {
+void pass_on_spec(skill_instance_pointer self) {
   auto& st = self->state;
-  if (tell(self, one_line(st.row.spec.parameters))
+  if (pass_on(self, one_line(st.row.spec.parameters))
       == parameter_delivery::written)
-    st.correction = st.told_change;
+    st.correction = st.last_change;
 }
 
 /// Its node knows them from now on, also when it is started again. Where they
@@ -114,7 +114,7 @@ void use_in_spec(skill_instance_pointer self, const std::string& parameters,
 caf::result<parameters_set> take_before_it_runs(skill_instance_pointer self,
                                                 const std::string& parameters) {
   auto& st = self->state;
-  st.tells_when_ready = st.row.state == instance_state::starting;
+  st.passes_on_when_ready = st.row.state == instance_state::starting;
   auto promise = self->make_response_promise<parameters_set>();
   use_in_spec(self, parameters, promise);
   return promise;
@@ -129,8 +129,8 @@ void on_taken(skill_instance_pointer self, int64_t number) {
   }
   st.works_with_spec = number == st.correction;
   // It has taken what nobody waits for any more.
-  if (!st.works_with_spec && !st.change && number >= st.told_change)
-    tell_spec(self);
+  if (!st.works_with_spec && !st.change && number >= st.last_change)
+    pass_on_spec(self);
 }
 
 void on_refused(skill_instance_pointer self, int64_t number,
@@ -144,7 +144,7 @@ void on_refused(skill_instance_pointer self, int64_t number,
           + (why.empty() ? std::string{"it does not say why"} : why),
       "its parameters are as they were; " + std::string{restart_instead}));
   if (!st.works_with_spec)
-    tell_spec(self);
+    pass_on_spec(self);
 }
 
 } // namespace
@@ -162,10 +162,11 @@ caf::result<parameters_set> take_parameters(skill_instance_pointer self,
                : take_before_it_runs(self, wanted);
   if (is_same && st.works_with_spec && !st.change)
     return parameters_set{request.instance};
-  if (const auto how = tell(self, wanted); how != parameter_delivery::written)
+  if (const auto how = pass_on(self, wanted);
+      how != parameter_delivery::written)
     return not_delivered(st, how);
   drop_change(self, "another change of its parameters came meanwhile");
-  st.change = awaited_parameters{st.told_change, wanted,
+  st.change = awaited_parameters{st.last_change, wanted,
                                  self->clock().now()
                                      + limits::instance::parameter_answer,
                                  self->make_response_promise<parameters_set>()};
@@ -179,7 +180,8 @@ void drop_change(skill_instance_pointer self, const std::string& why) {
     change->promise.deliver(refusal(name_of(st) + ": " + why, {}));
 }
 
-void on_change_told(skill_instance_pointer self, const instance_notified& x) {
+void on_change_answered(skill_instance_pointer self,
+                        const instance_notified& x) {
   if (self->state.row.state != instance_state::running)
     return;
   if (x.parameters_taken > 0)
@@ -203,9 +205,9 @@ void on_change_late(skill_instance_pointer self) {
                + st.row.spec.instance + "` shows what it says"));
 }
 
-void tell_when_ready(skill_instance_pointer self) {
-  if (std::exchange(self->state.tells_when_ready, false))
-    tell_spec(self);
+void pass_on_when_ready(skill_instance_pointer self) {
+  if (std::exchange(self->state.passes_on_when_ready, false))
+    pass_on_spec(self);
 }
 
 } // namespace roscell

@@ -162,7 +162,7 @@ void on_running(skill_instance_pointer self) {
     limit(self, limits::instance::watchdog);
   if (!was_just_noted(self))
     note(self);
-  tell_when_ready(self);
+  pass_on_when_ready(self);
 }
 
 void on_started(skill_instance_pointer self, const std::string& container) {

@@ -169,13 +169,14 @@ caf::result<parameters_set> take_parameters(skill_instance_pointer self,
 void drop_change(skill_instance_pointer self, const std::string& why);
 
 /// Its program has answered, maybe.
-void on_change_told(skill_instance_pointer self, const instance_notified& x);
+void on_change_answered(skill_instance_pointer self,
+                        const instance_notified& x);
 
 /// It has not in time.
 void on_change_late(skill_instance_pointer self);
 
 /// It is ready, and is told what has changed since it was started.
-void tell_when_ready(skill_instance_pointer self);
+void pass_on_when_ready(skill_instance_pointer self);
 
 // -- skill_instance_steps.cpp -------------------------------------------------
 

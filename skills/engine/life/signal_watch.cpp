@@ -79,7 +79,7 @@ unique_fd open_fifo(const std::string& path) {
 
 } // namespace
 
-fifo_watch::fifo_watch(std::vector<told_lines> heard) {
+fifo_watch::fifo_watch(std::vector<heard_lines> heard) {
   for (auto& x : heard)
     if (auto fifo = open_fifo(x.path))
       sources_.push_back({std::move(x), std::move(fifo), {}});
@@ -138,7 +138,7 @@ changed_variables read_changed_variables(const std::string& line) {
   return result;
 }
 
-told_parameters read_told_parameters(const std::string& line) {
+ordered_parameters read_parameter_line(const std::string& line) {
   const auto document = nlohmann::json::parse(line, nullptr, false);
   if (!document.is_object())
     return {};

@@ -40,7 +40,7 @@ private:
 
 /// A FIFO that the node has made beside NOTIFY_SOCKET, and who takes the lines
 /// that it writes there.
-struct told_lines {
+struct heard_lines {
   std::string path;
   std::function<void(const std::string& line)> take;
 };
@@ -50,14 +50,14 @@ struct told_lines {
 /// anything where there is none. Without a FIFO there is no thread.
 class fifo_watch {
 public:
-  explicit fifo_watch(std::vector<told_lines> heard);
+  explicit fifo_watch(std::vector<heard_lines> heard);
 
   /// There are no calls after it.
   ~fifo_watch();
 
 private:
   struct source {
-    told_lines target;
+    heard_lines target;
     unique_fd fifo;
     std::string begun; ///< Of a line that has not ended.
   };
@@ -77,12 +77,12 @@ private:
 changed_variables read_changed_variables(const std::string& line);
 
 /// Other parameters, in `.parameters`.
-struct told_parameters {
+struct ordered_parameters {
   std::int64_t number = 0; ///< That the answer names; 0: the line is none.
   std::string values;      ///< JSON object of all of them.
 };
 
 /// Reads {"number":7,"parameters":{...}}.
-told_parameters read_told_parameters(const std::string& line);
+ordered_parameters read_parameter_line(const std::string& line);
 
 } // namespace roscell::engine

@@ -198,7 +198,7 @@ test_poses_are_looked_for_otherwise_and_no_picture_is_lost() {
     expect "gaps between pictures of $name" "$(cat "$scratch/gaps")" ""
   done
   # They are not the same poses: other pixels were looked at.
-  jq -c '[.stamp, [.tags[]? | .corners]]' "$scratch/poses" | sort > "$scratch/a"
-  jq -c '[.stamp, [.tags[]? | .corners]]' "$scratch/seen" | sort > "$scratch/b"
+  jq -c '[.stamp, [.tags[]? | .corners_px]]' "$scratch/poses" | sort > "$scratch/a"
+  jq -c '[.stamp, [.tags[]? | .corners_px]]' "$scratch/seen" | sort > "$scratch/b"
   [[ $(comm -23 "$scratch/a" "$scratch/b" | wc -l) -ge 5 ]] || fail "nothing differs"
 }

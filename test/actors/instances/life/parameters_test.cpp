@@ -11,12 +11,12 @@ using namespace std::chrono_literals;
 
 namespace {
 
-struct told_change {
+struct ordered_change {
   int64_t number = 0;
   std::string parameters;
 };
 
-/// Its program can be told of other parameters.
+/// Its program can be given other parameters.
 struct tuned_bench : instance_bench {
   using outcome = std::shared_ptr<std::optional<caf::expected<parameters_set>>>;
 
@@ -26,7 +26,7 @@ struct tuned_bench : instance_bench {
                                      const std::string& text) {
       CHECK(id == "i");
       if (delivery == parameter_delivery::written)
-        told.push_back({number, text});
+        ordered.push_back({number, text});
       return delivery;
     };
   }
@@ -70,7 +70,7 @@ struct tuned_bench : instance_bench {
   }
 
   parameter_delivery delivery = parameter_delivery::written;
-  std::vector<told_change> told;
+  std::vector<ordered_change> ordered;
 };
 
 } // namespace
@@ -79,12 +79,12 @@ TEST_CASE("what a program has taken is written down before it is answered") {
   tuned_bench b;
   b.start_ready();
   const auto reply = b.set(R"({"gain": 2})");
-  REQUIRE(b.told.size() == 1);
-  CHECK(b.told[0].parameters == R"({"gain":2})");
+  REQUIRE(b.ordered.size() == 1);
+  CHECK(b.ordered[0].parameters == R"({"gain":2})");
   CHECK_FALSE(reply->has_value());
   CHECK(b.spec() == R"({"gain":1})");
   const auto writes = b.store->records.size();
-  b.taken(b.told[0].number);
+  b.taken(b.ordered[0].number);
   CHECK(b.is_set(reply));
   CHECK(b.spec() == R"({"gain":2})");
   REQUIRE(b.store->records.size() == writes + 1);
@@ -97,7 +97,7 @@ TEST_CASE("the same parameters again are answered without a word or a write") {
   b.start_ready();
   const auto writes = b.store->records.size();
   CHECK(b.is_set(b.set(R"({ "gain" : 1 })")));
-  CHECK(b.told.empty());
+  CHECK(b.ordered.empty());
   CHECK(b.store->records.size() == writes);
 }
 
@@ -106,7 +106,7 @@ TEST_CASE("a program that has changed its parameters is restarted with them") {
   b.config.row.spec.life.restart.policy = restart_when::always;
   b.start_ready();
   b.set(R"({"gain":2})");
-  b.taken(b.told[0].number);
+  b.taken(b.ordered[0].number);
   b.exits(3);
   b.advance(10s);
   REQUIRE(b.runtime->started.size() == 2);
@@ -118,7 +118,7 @@ TEST_CASE("what a program refuses is answered with its reason") {
   tuned_bench b;
   b.start_ready();
   const auto reply = b.set(R"({"gain":2})");
-  b.refused(b.told[0].number, "too loud");
+  b.refused(b.ordered[0].number, "too loud");
   const auto why = b.why_not(reply);
   CHECK(why.code == error_code::conflict);
   CHECK(why.message == "the program of instance 'i' refuses: too loud");
@@ -150,15 +150,15 @@ TEST_CASE("a program that does not answer in time is put back when it does") {
   b.advance(1s);
   CHECK(b.why_not(reply).code == error_code::timeout);
   CHECK(b.state() == instance_state::running);
-  REQUIRE(b.told.size() == 1);
-  b.taken(b.told[0].number);
-  REQUIRE(b.told.size() == 2);
-  CHECK(b.told[1].parameters == R"({"gain":1})");
-  CHECK(b.told[1].number > b.told[0].number);
-  b.taken(b.told[1].number);
-  CHECK(b.told.size() == 2);
+  REQUIRE(b.ordered.size() == 1);
+  b.taken(b.ordered[0].number);
+  REQUIRE(b.ordered.size() == 2);
+  CHECK(b.ordered[1].parameters == R"({"gain":1})");
+  CHECK(b.ordered[1].number > b.ordered[0].number);
+  b.taken(b.ordered[1].number);
+  CHECK(b.ordered.size() == 2);
   CHECK(b.is_set(b.set(R"({"gain":1})")));
-  CHECK(b.told.size() == 2);
+  CHECK(b.ordered.size() == 2);
 }
 
 TEST_CASE("an instance that ends meanwhile has not changed") {
@@ -176,7 +176,7 @@ TEST_CASE("an instance that is to end takes no other parameters") {
   b.start_ready();
   b.stop();
   CHECK(b.why_not(b.set(R"({"gain":2})")).code == error_code::conflict);
-  CHECK(b.told.empty());
+  CHECK(b.ordered.empty());
 }
 
 TEST_CASE("a newer request takes the place of one without an answer") {
@@ -185,10 +185,10 @@ TEST_CASE("a newer request takes the place of one without an answer") {
   const auto first = b.set(R"({"gain":2})");
   const auto second = b.set(R"({"gain":3})");
   CHECK(b.why_not(first).code == error_code::conflict);
-  REQUIRE(b.told.size() == 2);
-  b.taken(b.told[0].number);
+  REQUIRE(b.ordered.size() == 2);
+  b.taken(b.ordered[0].number);
   CHECK_FALSE(second->has_value());
-  b.taken(b.told[1].number);
+  b.taken(b.ordered[1].number);
   CHECK(b.is_set(second));
   CHECK(b.spec() == R"({"gain":3})");
 }
@@ -198,10 +198,10 @@ TEST_CASE("one that is refused after another was taken is put back") {
   b.start_ready();
   b.set(R"({"gain":2})");
   b.set(R"({"gain":99})");
-  b.taken(b.told[0].number);
-  b.refused(b.told[1].number, "too loud");
-  REQUIRE(b.told.size() == 3);
-  CHECK(b.told[2].parameters == R"({"gain":1})");
+  b.taken(b.ordered[0].number);
+  b.refused(b.ordered[1].number, "too loud");
+  REQUIRE(b.ordered.size() == 3);
+  CHECK(b.ordered[2].parameters == R"({"gain":1})");
 }
 
 TEST_CASE("of one that was adopted it is not known what it works with") {
@@ -209,32 +209,32 @@ TEST_CASE("of one that was adopted it is not known what it works with") {
   b.adopt_as(instance_state::running, {true, "c1", -1});
   const auto writes = b.store->records.size();
   const auto reply = b.set(R"({"gain":1})");
-  REQUIRE(b.told.size() == 1);
-  b.taken(b.told[0].number);
+  REQUIRE(b.ordered.size() == 1);
+  b.taken(b.ordered[0].number);
   CHECK(b.is_set(reply));
   CHECK(b.store->records.size() == writes);
   CHECK(b.is_set(b.set(R"({"gain":1})")));
-  CHECK(b.told.size() == 1);
+  CHECK(b.ordered.size() == 1);
 }
 
 TEST_CASE("what an earlier run of the node has asked for is put back") {
   tuned_bench b;
   b.adopt_as(instance_state::running, {true, "c1", -1});
   b.taken(9'000'000'000'000);
-  REQUIRE(b.told.size() == 1);
-  CHECK(b.told[0].parameters == R"({"gain":1})");
-  b.taken(b.told[0].number);
-  CHECK(b.told.size() == 1);
+  REQUIRE(b.ordered.size() == 1);
+  CHECK(b.ordered[0].parameters == R"({"gain":1})");
+  b.taken(b.ordered[0].number);
+  CHECK(b.ordered.size() == 1);
 }
 
-TEST_CASE("what is set before a program is ready is told once it is") {
+TEST_CASE("what is set before a program is ready is ordered once it is") {
   tuned_bench b;
   b.start();
   CHECK(b.is_set(b.set(R"({"gain":2})")));
-  CHECK(b.told.empty());
+  CHECK(b.ordered.empty());
   b.ready();
-  REQUIRE(b.told.size() == 1);
-  CHECK(b.told[0].parameters == R"({"gain":2})");
+  REQUIRE(b.ordered.size() == 1);
+  CHECK(b.ordered[0].parameters == R"({"gain":2})");
 }
 
 TEST_CASE("a store that fails is no reason to forget what a program works "
@@ -243,7 +243,7 @@ TEST_CASE("a store that fails is no reason to forget what a program works "
   b.start_ready();
   const auto reply = b.set(R"({"gain":2})");
   b.store->error = fail(error_code::internal, "no room");
-  b.taken(b.told[0].number);
+  b.taken(b.ordered[0].number);
   CHECK(b.is_set(reply));
   CHECK(b.spec() == R"({"gain":2})");
 }

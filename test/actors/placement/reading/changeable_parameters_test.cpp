@@ -1,4 +1,4 @@
-#include "actors/placement/reading/parameter_wishes.hpp"
+#include "actors/placement/reading/changeable_parameters.hpp"
 
 #include "test/actors/placement/reading/pipelines.hpp"
 
@@ -59,7 +59,7 @@ TEST_CASE("programs that take no parameters while they run say what does") {
 
 TEST_CASE("an event tells of long values what they are") {
   const json list(1000, 7);
-  const auto told = short_values({{"gain", 2}, {"list", list}});
-  CHECK(told.at("gain") == 2);
-  CHECK(told.at("list") == "an array of 1000 items");
+  const auto shown = short_values({{"gain", 2}, {"list", list}});
+  CHECK(shown.at("gain") == 2);
+  CHECK(shown.at("list") == "an array of 1000 items");
 }

@@ -1,4 +1,4 @@
-#include "actors/placement/reading/parameter_wishes.hpp"
+#include "actors/placement/reading/changeable_parameters.hpp"
 
 #include "schemas/parameters/declared_parameter.hpp"
 #include "schemas/text_excerpt.hpp"
