@@ -179,6 +179,9 @@ void primitive_base_engine::open_parts() {
   outputs_.open();
   for (auto& input : inputs_)
     input->handler->open();
+  view_ = parts_.make_parameter_view(env_, say_);
+  if (view_)
+    view_->open(env_.parameters);
 }
 
 bool primitive_base_engine::survives_new_address() const {
@@ -321,7 +324,10 @@ void primitive_base_engine::pass_on_parameters(
   const auto number = std::to_string(wanted.number);
   alive_.work_begins(liveness::clock::now());
   try {
-    executor_->on_parameters(parameters::parse(wanted.values));
+    const auto now = parameters::parse(wanted.values);
+    executor_->on_parameters(now);
+    if (view_)
+      view_->show(now);
     socket_.send("ROSCELL_PARAMETERS_TAKEN=" + number);
     say_("it works with these parameters: " + wanted.values);
   } catch (...) {
@@ -370,9 +376,13 @@ void primitive_base_engine::make_connections_anew(
   for (auto& input : inputs_)
     input->handler->suspend();
   outputs_.suspend();
+  if (view_)
+    view_->suspend();
   outputs_.resume(reported);
   for (auto& input : inputs_)
     input->handler->resume(reported);
+  if (view_)
+    view_->resume(reported);
 }
 
 std::string primitive_base_engine::call_process(const frame& input) {
@@ -412,6 +422,7 @@ bool primitive_base_engine::gives_up(std::size_t input) const {
 exit_code primitive_base_engine::finish(exit_code so_far) {
   request_stop();
   news_.reset();
+  view_.reset();
   heartbeat_.reset();
   if (so_far == exit_code::done)
     socket_.send("STOPPING=1\n" + reported_status());

@@ -118,6 +118,7 @@ private:
   std::unique_ptr<executor> executor_;
   output_ports outputs_{meters_};
   bool useless_ = false; ///< What an input brings can never be used.
+  std::unique_ptr<parameter_view> view_; ///< Null: nobody sees parameters.
   std::optional<heartbeat> heartbeat_;
   std::atomic<std::size_t> open_inputs_{0};
   std::atomic<bool> stream_failed_{false};

@@ -172,6 +172,7 @@ skill_instance_actor::behavior_type
 skill_instance(skill_instance_pointer self,
                const skill_instance_config& config) {
   self->state.config = config;
+  self->state.adopting = config.adopt;
   self->state.row = config.row;
   self->state.has_run = has_run_before(config.row);
   self->state.started_at = config.started_at;

@@ -150,8 +150,11 @@ struct skill_instance_state {
   /// Number of the change by which it was last put back to that; 0: none.
   int64_t correction = 0;
 
-  /// Its spec has changed since its program was started.
+  /// Its program is to be given what its spec says once it is known to run.
   bool passes_on_when_ready = false;
+
+  /// Whether its program runs at all is not known yet.
+  bool adopting = false;
 
   std::optional<alarm::time_point> deadline;
   alarm timer;

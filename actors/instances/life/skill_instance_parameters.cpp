@@ -110,11 +110,13 @@ void use_in_spec(skill_instance_pointer self, const std::string& parameters,
           });
 }
 
-/// No program runs that would have to be told, or it is told once it is ready.
+/// No program runs that would have to be told, or it is told once it does.
 caf::result<parameters_set> take_before_it_runs(skill_instance_pointer self,
                                                 const std::string& parameters) {
   auto& st = self->state;
-  st.passes_on_when_ready = st.row.state == instance_state::starting;
+  const bool is_same = parameters == one_line(st.row.spec.parameters);
+  if (st.adopting || (st.row.state == instance_state::starting && !is_same))
+    st.passes_on_when_ready = true;
   auto promise = self->make_response_promise<parameters_set>();
   use_in_spec(self, parameters, promise);
   return promise;
@@ -156,10 +158,8 @@ caf::result<parameters_set> take_parameters(skill_instance_pointer self,
   const bool is_same = wanted == one_line(st.row.spec.parameters);
   if (st.concluding || st.farewell || st.row.state >= instance_state::stopping)
     return refusal(name_of(st) + " is being ended", {});
-  if (st.row.state != instance_state::running)
-    return is_same
-               ? caf::result<parameters_set>{parameters_set{request.instance}}
-               : take_before_it_runs(self, wanted);
+  if (st.row.state != instance_state::running || st.adopting)
+    return take_before_it_runs(self, wanted);
   if (is_same && st.works_with_spec && !st.change)
     return parameters_set{request.instance};
   if (const auto how = pass_on(self, wanted);

@@ -37,6 +37,8 @@ struct stream {
 ///   or `@` and an abstract name | nothing is reported |
 /// | WATCHDOG_USEC | the node takes the skill for hung after so many
 ///   microseconds without WATCHDOG=1 | no watchdog |
+/// | ROSCELL_CHANGEABLE | JSON object: those of them that can be changed while
+///   it runs, as the descriptor declares them | none can |
 /// | ROSCELL_HEALTH | 1: the node wants to know what the streams do | it is not
 ///   told |
 struct environment {
@@ -49,6 +51,7 @@ struct environment {
   std::vector<stream> inputs;
   std::vector<stream> outputs;
   engine::parameters parameters;
+  std::string changeable; ///< JSON object; empty: none.
   std::optional<unsigned> gpu;
   std::string notify_socket;
   std::optional<std::chrono::microseconds> watchdog;

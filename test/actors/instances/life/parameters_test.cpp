@@ -247,3 +247,20 @@ TEST_CASE("a store that fails is no reason to forget what a program works "
   CHECK(b.is_set(reply));
   CHECK(b.spec() == R"({"gain":2})");
 }
+
+TEST_CASE("what is set while a program is being adopted is given to it then") {
+  tuned_bench b;
+  b.config.adopt = true;
+  b.config.row.state = instance_state::running;
+  b.config.row.container = "c1";
+  b.runtime->adoption = {true, "c1", -1};
+  b.instance = roscell::spawn(b.system, b.context, skill_instance, b.config);
+  // Before it has begun.
+  const auto reply = b.set(R"({"gain":2})");
+  CHECK(b.is_set(reply));
+  CHECK(b.ordered.empty());
+  caf::anon_send(b.instance, start_instance{});
+  b.settle();
+  REQUIRE(b.ordered.size() == 1);
+  CHECK(b.ordered[0].parameters == R"({"gain":2})");
+}
