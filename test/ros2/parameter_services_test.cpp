@@ -20,13 +20,13 @@ constexpr const char* declared = R"({
            "description": "How loud."},
   "word": {"type": "string", "values": ["a", "b"], "changeable": true}})";
 
-constexpr const char* values =
+constexpr const char* shown_values =
     R"({"gain": 2, "word": "a", "size": 4, "loop": true, "list": [1, 2.5],
         "body": {"a": 1}, "deep.er": "x"})";
 
 ros2::parameter_answers known_answers() {
   ros2::parameter_answers result{declared, "use roscell set"};
-  result.set(values);
+  result.set(shown_values);
   return result;
 }
 
@@ -130,7 +130,7 @@ struct shown_skill {
           lookup_in(home.environment("teller")))) {
     env.instance = "teller";
     env.changeable = declared;
-    env.parameters = engine::parameters::parse(values);
+    env.parameters = engine::parameters::parse(shown_values);
     server.emplace(env, shared, log.say());
     server->open(env.parameters);
   }
