@@ -108,9 +108,9 @@ TEST_CASE_METHOD(tuned_cell, "The same values again cost nothing",
 
 TEST_CASE_METHOD(tuned_cell, "A change that cannot be says why",
                  "[parameters]") {
-  const auto unknown = change({{"gian", 5}});
+  const auto unknown = change({{"gainn", 5}});
   CHECK(error_of(unknown) == "schema_violation");
-  CHECK(unknown.at("error").at("where") == "/parameters/gian");
+  CHECK(unknown.at("error").at("where") == "/parameters/gainn");
   CHECK(unknown.dump().find("did you mean") != std::string::npos);
   const auto fixed = change({{"size", 5}});
   CHECK(error_of(fixed) == "schema_violation");

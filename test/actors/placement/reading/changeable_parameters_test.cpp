@@ -40,7 +40,7 @@ TEST_CASE("only parameters that are declared changeable can be set") {
 TEST_CASE("values that are set are checked as those of a task") {
   CHECK(refusal_of(tunable(), {{"gain", 10}}).find("/parameters/gain: expected")
         == 0);
-  CHECK(refusal_of(tunable(), {{"gian", 1}}).find("did you mean \"gain\"")
+  CHECK(refusal_of(tunable(), {{"gainn", 1}}).find("did you mean \"gain\"")
         != std::string::npos);
 }
 
