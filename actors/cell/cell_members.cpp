@@ -9,6 +9,7 @@
 #include "actors/cell/state/member_presence.hpp"
 #include "actors/cell/state/node_whereabouts.hpp"
 #include "actors/cell/tasks/cell_instances.hpp"
+#include "actors/cell/tasks/parameter_changes.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/core/watching.hpp"
@@ -120,6 +121,7 @@ void on_registration_persisted(coordinator_pointer self,
       node_registered{st.setup.cell, st.setup.self.name, st.setup.incarnation,
                       take_up_instances(self, node), st.setup.cell_uuid,
                       place_of(st, *entry), true, true, entry->build_key});
+  restate_parameters(self, node);
   release_remains(self, who.name);
   settle_arrivals(self, who.uuid, {});
   on_node_returned(self, who.uuid);

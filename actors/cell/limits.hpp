@@ -97,6 +97,10 @@ namespace task {
 /// How long a moved instance is to be healthy before the next one is moved.
 constexpr seconds healthy_for{10};
 
+/// For a node to have an instance work with other parameters: the end of its
+/// session waits for `session::parameters`.
+constexpr seconds agent_parameters{11};
+
 /// Events that are kept of a task: its first ones and the newest; and for how
 /// many tasks, those that are gone too.
 constexpr size_t first_events = 50;

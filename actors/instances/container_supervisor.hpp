@@ -2,6 +2,7 @@
 
 #include "actors/core/actor_context.hpp"
 #include "actors/edge/process/notify_socket.hpp"
+#include "actors/edge/process/parameter_file.hpp"
 #include "actors/edge/process/skill_grants.hpp"
 #include "actors/instances/life/skill_metrics.hpp"
 #include "actors/instances/skills/current_skills.hpp"
@@ -46,9 +47,10 @@ struct container_supervisor_config {
   std::map<std::string, std::string> environment;
   bool learns_place = false; ///< It is such a member.
   environment_writer
-      write_environment_update; ///< Empty: no instance can be told.
-  shared_skill_grants grants;   ///< Null: nothing is granted to any skill.
-  secret_keeper_actor secrets;  ///< Invalid: this node keeps none.
+      write_environment_update;      ///< Empty: no instance can be told.
+  parameter_writer write_parameters; ///< The same.
+  shared_skill_grants grants;        ///< Null: nothing is granted to any skill.
+  secret_keeper_actor secrets;       ///< Invalid: this node keeps none.
 };
 
 /// An instance as the supervisor sees it.

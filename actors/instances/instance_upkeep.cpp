@@ -82,6 +82,7 @@ void spawn_actor(container_supervisor_pointer self, supervised_instance& x,
       adopt ? x.started_in : "",
       renewal,
       st.config.write_environment_update,
+      st.config.write_parameters,
       st.config.grants,
       st.config.node,
       st.config.secrets};

@@ -42,7 +42,9 @@ static_assert(3 * instance::force_interval < instance::stop);
 static_assert(instance::force < instance::stop);
 
 static_assert(instance::parameter_answer < instance::parameters
-              && instance::parameters < session::parameters - session::margin);
+              && instance::parameters < session::parameters - session::margin
+              && session::parameters < task::agent_parameters
+              && task::agent_parameters < task::parameters);
 
 static_assert(build::more < build::more_call
               && build::piece_call < build::fetch);

@@ -156,6 +156,7 @@ void node_builder::start_supervision() {
   supervision.builds_images = !runtime_.socket.empty();
   supervision.write_environment_update =
       make_environment_writer(config, runtime_);
+  supervision.write_parameters = make_parameter_writer(config, runtime_);
   supervision.store = store_;
   supervision.history = history_;
   supervision.graph = start(graph_watch, parts_.edges->graph);

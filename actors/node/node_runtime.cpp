@@ -6,6 +6,7 @@
 #include "actors/edge/engine/registry_login.hpp"
 #include "actors/edge/host/own_process.hpp"
 #include "actors/edge/process/notify_socket.hpp"
+#include "actors/edge/process/parameter_file.hpp"
 #include "actors/instances/engine/engine_runtime.hpp"
 #include "actors/instances/exec/engine_exec.hpp"
 #include "actors/instances/exec/process_exec.hpp"
@@ -142,14 +143,35 @@ runtime_factory(caf::actor_system& system, const actor_context& context,
   };
 }
 
+namespace {
+
+/// Where the NOTIFY_SOCKET of an instance lies.
+std::function<fs::path(const std::string&)>
+socket_finder(const node_config& config, const chosen_runtime& chosen) {
+  return [data_dir = config.data_dir,
+          in_engine = !chosen.socket.empty()](const std::string& instance) {
+    return in_engine ? container_notify_path(data_dir, instance)
+                     : notify_path(data_dir / "instances" / instance);
+  };
+}
+
+} // namespace
+
 environment_writer make_environment_writer(const node_config& config,
                                            const chosen_runtime& chosen) {
-  return [data_dir = config.data_dir, in_engine = !chosen.socket.empty()](
-             const std::string& instance, const auto& variables) {
-    const auto socket = in_engine
-                            ? container_notify_path(data_dir, instance)
-                            : notify_path(data_dir / "instances" / instance);
-    return write_environment_update(environment_file_of(socket), variables);
+  return [find = socket_finder(config, chosen)](const std::string& instance,
+                                                const auto& variables) {
+    return write_environment_update(environment_file_of(find(instance)),
+                                    variables);
+  };
+}
+
+parameter_writer make_parameter_writer(const node_config& config,
+                                       const chosen_runtime& chosen) {
+  return [find = socket_finder(config, chosen)](const std::string& instance,
+                                                int64_t number,
+                                                const std::string& text) {
+    return write_parameters(parameter_file_of(find(instance)), number, text);
   };
 }
 

@@ -4,6 +4,7 @@
 #include "actors/edge/cgroup/cgroup_place.hpp"
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/process/notify_socket.hpp"
+#include "actors/edge/process/parameter_file.hpp"
 #include "actors/instances/exec/exec_host.hpp"
 #include "actors/instances/skills/skill_catalogue.hpp"
 #include "actors/instances/skills/skill_places.hpp"
@@ -55,6 +56,10 @@ runtime_factory(caf::actor_system& system, const actor_context& context,
 /// variables.
 environment_writer make_environment_writer(const node_config& config,
                                            const chosen_runtime& chosen);
+
+/// The same of other parameters.
+parameter_writer make_parameter_writer(const node_config& config,
+                                       const chosen_runtime& chosen);
 
 /// Begins commands beside the instances of that runtime.
 exec_opener make_exec_opener(const node_config& config,

@@ -13,12 +13,16 @@ public:
     output.emit(prefix_ + input.payload);
   }
 
+  void on_parameters(const roscell::engine::parameters& now) override {
+    prefix_ = now.text("prefix", "");
+  }
+
   void release() override {
     // Nothing is held.
   }
 
 private:
-  const std::string prefix_;
+  std::string prefix_;
 };
 
 int main(int argc, char** argv) {

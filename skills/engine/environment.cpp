@@ -110,6 +110,7 @@ environment read_environment(const variable_lookup& lookup) {
   result.outputs = read_streams(lookup, "ROSCELL_OUTPUTS", 0);
   if (auto text = optional_text(lookup, "ROSCELL_PARAMETERS"); !text.empty())
     result.parameters = read_parameters(text);
+  result.changeable = optional_text(lookup, "ROSCELL_CHANGEABLE");
   if (auto gpu = read_number(lookup, "ROSCELL_GPU", 0, 1023))
     result.gpu = static_cast<unsigned>(*gpu);
   result.notify_socket = optional_text(lookup, "NOTIFY_SOCKET");

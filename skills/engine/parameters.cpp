@@ -139,6 +139,10 @@ std::string parameters::json(const std::string& name) const {
   return value != nullptr ? shown(*value) : "";
 }
 
+std::string parameters::all() const {
+  return shown(content_->values);
+}
+
 std::string current_error() {
   try {
     throw;

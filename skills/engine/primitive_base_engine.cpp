@@ -42,6 +42,7 @@ constexpr std::size_t most_counted = 16;
 /// And no more bytes of a remark. What an author says has any length, and a
 /// datagram that is too long is not read at all.
 constexpr std::size_t most_remark_bytes = 256;
+constexpr std::size_t most_refusal_bytes = 512;
 
 } // namespace
 
@@ -178,6 +179,9 @@ void primitive_base_engine::open_parts() {
   outputs_.open();
   for (auto& input : inputs_)
     input->handler->open();
+  view_ = parts_.make_parameter_view(env_, say_);
+  if (view_)
+    view_->open(env_.parameters);
 }
 
 bool primitive_base_engine::survives_new_address() const {
@@ -187,13 +191,26 @@ bool primitive_base_engine::survives_new_address() const {
             });
 }
 
+/// A node starts a skill again that does not hear of another address.
+void primitive_base_engine::listen_to_node() {
+  std::vector<heard_lines> heard{
+      {env_.notify_socket + ".parameters", [this](const std::string& line) {
+         if (auto wanted = read_parameter_line(line); wanted.number > 0)
+           use_parameters(std::move(wanted));
+       }}};
+  if (survives_new_address())
+    heard.push_back(
+        {env_.notify_socket + ".environment", [this](const std::string& line) {
+           if (auto reported = read_changed_variables(line); !reported.empty())
+             use_variables(std::move(reported));
+         }});
+  news_.emplace(std::move(heard));
+}
+
 void primitive_base_engine::report_ready() {
   if (!socket_.enabled())
     return;
-  if (survives_new_address())
-    news_.emplace(env_.notify_socket, [this](changed_variables reported) {
-      use_variables(std::move(reported));
-    });
+  listen_to_node();
   if (auto error = socket_.send("READY=1"))
     say_("cannot report READY=1 to NOTIFY_SOCKET '" + env_.notify_socket
          + "': " + std::strerror(error)
@@ -276,17 +293,52 @@ void primitive_base_engine::use_variables(changed_variables reported) {
   queue_.interpose([this] { between_frames(); });
 }
 
+void primitive_base_engine::use_parameters(ordered_parameters wanted) {
+  {
+    const std::lock_guard guard{reported_mutex_};
+    wanted_ = std::move(wanted);
+  }
+  queue_.interpose([this] { between_frames(); });
+}
+
 /// One request does not push out the other.
 void primitive_base_engine::between_frames() {
   if (safety_wanted_.exchange(false))
     pass_on_request();
   std::optional<changed_variables> reported;
+  std::optional<ordered_parameters> wanted;
   {
     const std::lock_guard guard{reported_mutex_};
     reported.swap(reported_);
+    wanted.swap(wanted_);
   }
+  if (wanted)
+    pass_on_parameters(*wanted);
   if (reported)
     move_to(*reported);
+}
+
+/// What the node waits for is said at once: from the next frame on they count.
+void primitive_base_engine::pass_on_parameters(
+    const ordered_parameters& wanted) {
+  const auto number = std::to_string(wanted.number);
+  alive_.work_begins(liveness::clock::now());
+  try {
+    const auto now = parameters::parse(wanted.values);
+    executor_->on_parameters(now);
+    if (view_)
+      view_->show(now);
+    socket_.send("ROSCELL_PARAMETERS_TAKEN=" + number);
+    say_("it works with these parameters: " + wanted.values);
+  } catch (...) {
+    auto why = current_error();
+    say_("it does not take other parameters: " + why);
+    why.resize(std::min(why.size(), most_refusal_bytes));
+    // A datagram has one line for each thing.
+    std::replace(why.begin(), why.end(), '\n', ' ');
+    socket_.send("ROSCELL_PARAMETERS_REFUSED=" + number + " " + why);
+  }
+  work_has_ended();
 }
 
 void primitive_base_engine::pass_on_request() {
@@ -324,9 +376,13 @@ void primitive_base_engine::make_connections_anew(
   for (auto& input : inputs_)
     input->handler->suspend();
   outputs_.suspend();
+  if (view_)
+    view_->suspend();
   outputs_.resume(reported);
   for (auto& input : inputs_)
     input->handler->resume(reported);
+  if (view_)
+    view_->resume(reported);
 }
 
 std::string primitive_base_engine::call_process(const frame& input) {
@@ -366,6 +422,7 @@ bool primitive_base_engine::gives_up(std::size_t input) const {
 exit_code primitive_base_engine::finish(exit_code so_far) {
   request_stop();
   news_.reset();
+  view_.reset();
   heartbeat_.reset();
   if (so_far == exit_code::done)
     socket_.send("STOPPING=1\n" + reported_status());

@@ -55,6 +55,11 @@ public:
   /// they cannot. May be called from any thread, at any time, repeatedly.
   void use_variables(changed_variables reported);
 
+  /// Has the executor take these parameters between two frames, and tells the
+  /// node what became of it; of what is told meanwhile the last word counts.
+  /// May be called from any thread, at any time, repeatedly.
+  void use_parameters(ordered_parameters wanted);
+
   /// For instance `frames=120 dropped=0 failed=0 median_us=85 p99_us=210
   /// times_us=10900 times=119,1,0,0,0,0,0,0,0,0,0 age_us=4200`: of the input
   /// that the skill works on, frames processed, dropped before that, failed,
@@ -80,6 +85,7 @@ private:
   void make_parts();
   void open_parts();
   bool survives_new_address() const;
+  void listen_to_node();
   void report_ready();
   void start_inputs();
   void run_input(input_port& input);
@@ -92,6 +98,7 @@ private:
   std::string reported_status() const;
   void between_frames();
   void pass_on_request();
+  void pass_on_parameters(const ordered_parameters& wanted);
   void move_to(const changed_variables& reported);
   void make_connections_anew(const changed_variables& reported);
   void work_has_ended();
@@ -111,13 +118,15 @@ private:
   std::unique_ptr<executor> executor_;
   output_ports outputs_{meters_};
   bool useless_ = false; ///< What an input brings can never be used.
+  std::unique_ptr<parameter_view> view_; ///< Null: nobody sees parameters.
   std::optional<heartbeat> heartbeat_;
   std::atomic<std::size_t> open_inputs_{0};
   std::atomic<bool> stream_failed_{false};
   std::atomic<bool> safety_wanted_{false};
   std::mutex reported_mutex_; // Guards what follows.
   std::optional<changed_variables> reported_;
-  std::optional<environment_watch> news_; // Calls until it is gone.
+  std::optional<ordered_parameters> wanted_;
+  std::optional<fifo_watch> news_; // Calls until it is gone.
 };
 
 } // namespace roscell::engine

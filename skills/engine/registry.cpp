@@ -3,6 +3,9 @@
 #include "roscell/skill/typed_ports.hpp"
 #include "skills/engine/file/file_protocol.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace roscell::engine {
 
 namespace {
@@ -42,6 +45,25 @@ void registry::add_input(const std::string& protocol, input_factory make) {
 
 void registry::add_output(const std::string& protocol, output_factory make) {
   outputs_[protocol] = std::move(make);
+}
+
+void registry::set_parameter_view(const std::string& protocol,
+                                  view_factory make) {
+  view_protocol_ = protocol;
+  make_view_ = std::move(make);
+}
+
+std::unique_ptr<parameter_view>
+registry::make_parameter_view(const environment& env,
+                              const say_function& say) const {
+  const auto uses_it = [this](const stream& x) {
+    return x.protocol == view_protocol_;
+  };
+  if (!make_view_ || env.changeable.empty()
+      || (std::none_of(env.inputs.begin(), env.inputs.end(), uses_it)
+          && std::none_of(env.outputs.begin(), env.outputs.end(), uses_it)))
+    return nullptr;
+  return make_view_(env, say);
 }
 
 std::unique_ptr<executor>

@@ -55,6 +55,12 @@ public:
   /// `say` gets the lines for people.
   pose_estimator(const engine::environment& env, engine::say_function say);
 
+  /// How tags are looked for can be changed: decimation, blur, refine,
+  /// sharpening and threads.
+  void on_parameters(const engine::parameters& now) override {
+    finder_.adjust(now);
+  }
+
   void release() override;
 
 private:

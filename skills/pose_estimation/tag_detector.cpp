@@ -106,14 +106,23 @@ struct tag_detector::library {
 tag_detector::tag_detector(const detector_options& options)
     : options_(options), library_(std::make_unique<library>(options.family)) {
   check_table(*library_->family, options_.max_hamming);
+  adjust(options_);
+  apriltag_detector_add_family_bits(
+      library_->detector.get(), library_->family.get(), options_.max_hamming);
+}
+
+void tag_detector::adjust(const detector_options& options) {
+  options_.decimation = options.decimation;
+  options_.blur = options.blur;
+  options_.threads = options.threads;
+  options_.refine = options.refine;
+  options_.sharpening = options.sharpening;
   auto& detector = *library_->detector;
   detector.quad_decimate = options_.decimation;
   detector.quad_sigma = options_.blur;
   detector.nthreads = options_.threads;
   detector.refine_edges = options_.refine;
   detector.decode_sharpening = options_.sharpening;
-  apriltag_detector_add_family_bits(&detector, library_->family.get(),
-                                    options_.max_hamming);
 }
 
 tag_detector::~tag_detector() = default;

@@ -68,6 +68,10 @@ public:
   /// std::invalid_argument when the image is larger than the library can count.
   std::vector<tag_detection> detect(const vision::gray_view& image);
 
+  /// From the next image on it looks so for tags, but of the same family and
+  /// with as many bits corrected.
+  void adjust(const detector_options& options);
+
   const std::string& family() const noexcept {
     return options_.family;
   }
@@ -75,7 +79,7 @@ public:
 private:
   struct library;
 
-  const detector_options options_;
+  detector_options options_;
   std::vector<std::uint8_t> copy_;
   std::unique_ptr<library> library_;
 };

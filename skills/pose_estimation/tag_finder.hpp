@@ -83,6 +83,11 @@ public:
             const std::optional<camera_model>& camera,
             const image_origin& origin, frame_result& result);
 
+  /// From the next image on, see `tag_detector::adjust`. Throws start_error.
+  void adjust(const engine::parameters& options) {
+    detector_.adjust(detector_options::of(options));
+  }
+
 private:
   double size_of(int id) const;
   void keep_frames(const image_origin& origin, frame_result& result);

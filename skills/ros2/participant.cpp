@@ -135,9 +135,16 @@ dds::DataReader* participant::add_reader(const std::string& topic,
                                          const std::string& type,
                                          const topic_qos& qos,
                                          dds::DataReaderListener* listener) {
-  auto* result = subscriber_->create_datareader(
-      find_topic(dds_topic_name(topic), dds_type_name(type)),
-      to_reader_qos(qos), listener);
+  return add_named_reader(dds_topic_name(topic), dds_type_name(type), qos,
+                          listener);
+}
+
+dds::DataReader*
+participant::add_named_reader(const std::string& topic, const std::string& type,
+                              const topic_qos& qos,
+                              dds::DataReaderListener* listener) {
+  auto* result = subscriber_->create_datareader(find_topic(topic, type),
+                                                to_reader_qos(qos), listener);
   if (result == nullptr)
     throw start_error("Fast DDS does not create a reader of '" + topic + "'");
   std::lock_guard guard{mutex_};
@@ -150,8 +157,15 @@ dds::DataWriter* participant::add_writer(const std::string& topic,
                                          const std::string& type,
                                          const topic_qos& qos,
                                          dds::DataWriterListener* listener) {
-  auto* result = make_writer(
-      find_topic(dds_topic_name(topic), dds_type_name(type)), qos, listener);
+  return add_named_writer(dds_topic_name(topic), dds_type_name(type), qos,
+                          listener);
+}
+
+dds::DataWriter*
+participant::add_named_writer(const std::string& topic, const std::string& type,
+                              const topic_qos& qos,
+                              dds::DataWriterListener* listener) {
+  auto* result = make_writer(find_topic(topic, type), qos, listener);
   std::lock_guard guard{mutex_};
   node_.writers.push_back(to_guid(result->guid()));
   publish_graph();

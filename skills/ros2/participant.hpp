@@ -74,6 +74,20 @@ public:
                               const topic_qos& qos,
                               dds::DataWriterListener* listener);
 
+  /// The same by their names in DDS, as services have them.
+  dds::DataReader* add_named_reader(const std::string& topic,
+                                    const std::string& type,
+                                    const topic_qos& qos,
+                                    dds::DataReaderListener* listener);
+  dds::DataWriter* add_named_writer(const std::string& topic,
+                                    const std::string& type,
+                                    const topic_qos& qos,
+                                    dds::DataWriterListener* listener);
+
+  const std::string& node_name() const {
+    return config_.node_name;
+  }
+
   /// Waits for the listener's call that is under way. Not to be called by it.
   void remove(dds::DataReader* reader);
   void remove(dds::DataWriter* writer);

@@ -1,5 +1,6 @@
 #include "roscell/ros2.hpp"
 
+#include "skills/ros2/services/parameter_server.hpp"
 #include "skills/ros2/topic_input.hpp"
 #include "skills/ros2/topic_output.hpp"
 
@@ -21,6 +22,10 @@ void add_ros2_protocol(engine::registry& target,
   auto shared = std::make_shared<shared_participant>(lookup);
   target.add_input("ros2", [shared](const engine::stream_context& input) {
     return std::make_unique<topic_input>(input, shared);
+  });
+  target.set_parameter_view("ros2", [shared](const engine::environment& env,
+                                             const engine::say_function& say) {
+    return std::make_unique<parameter_server>(env, shared, say);
   });
   target.add_output("ros2", [shared](const engine::stream_context& output) {
     return std::make_unique<topic_output>(output, shared);

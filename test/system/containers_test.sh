@@ -582,3 +582,16 @@ test_a_container_reads_its_secrets_and_nobody_else_has_them() {
   terminate t
   [[ ! -e $folder ]] || fail "its files are left: $(ls -l "$folder")"
 }
+
+test_parameters_of_a_container_change_while_it_runs() {
+  start_alone
+  run_task t
+  echoes t one
+  to head set "$instance" "prefix=b " > "$scratch/out" 2>&1 || fail "$(cat "$scratch/out")"
+  echo two >> "$scratch/data/t.in"
+  timeout "$deadline_s" grep -m 1 -x "b two" > "$scratch/matches" \
+    < <(exec tail --pid=$$ -n +1 -F "$scratch/data/t.out" 2> /dev/null) \
+    || fail "no 'b two': $(tail -n 3 "$scratch/data/t.out")"
+  expect "its container" "$(get head "/v1/instances/$instance" \
+    | jq -r '.instances[0].container')" "$container"
+}

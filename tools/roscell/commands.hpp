@@ -30,11 +30,12 @@ void add_cell_command(CLI::App& app, action& chosen);
 /// status, cells, nodes, transfers, tasks, instances, topics, skills.
 void add_show_commands(CLI::App& app, action& chosen);
 
-/// run, apply, rollback, stop, restart.
+/// run, apply, rollback, stop, restart, set.
 void add_task_commands(CLI::App& app, action& chosen);
 void add_apply_command(CLI::App& app, action& chosen);
 void add_rollback_command(CLI::App& app, action& chosen);
 void add_stop_command(CLI::App& app, action& chosen);
+void add_set_command(CLI::App& app, action& chosen);
 
 void add_check_command(CLI::App& app, action& chosen);
 

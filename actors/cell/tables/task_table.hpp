@@ -290,6 +290,18 @@ task_record with_update_reverted(task_record record,
                                  const std::string& problem,
                                  int64_t now_unix_ms);
 
+// Parameters that are changed while a step runs. That makes no new revision:
+// the present request is changed in place, so that many small changes do not
+// push out what a rollback goes back to.
+
+/// Whether a request, as it is stored, has a step of that id.
+bool requests_step(const std::string& request, const std::string& step);
+
+/// With other values of some parameters of a step, in its request and in what
+/// is placed of it.
+task_record with_parameters(task_record record, const std::string& step,
+                            const json& values);
+
 /// As a restarted coordinator takes it up: without what was tentative. None for
 /// a task that was being deployed or ended: nodes stop its instances when they
 /// register.

@@ -8,6 +8,7 @@
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/cell/state/may_start.hpp"
 #include "actors/cell/streams/cell_streams.hpp"
+#include "actors/cell/tasks/parameter_changes.hpp"
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
@@ -207,6 +208,7 @@ void take_up_own(coordinator_pointer self, instance_description& known) {
       event.kept.push_back(x.instance);
   }
   self->send(st.setup.supervisor, std::move(event));
+  restate_parameters(self, own);
 }
 
 } // namespace

@@ -72,6 +72,10 @@ void start_due_again(coordinator_pointer self);
 std::optional<failure> why_busy(const cell_coordinator_state& st,
                                 const std::string& task);
 
+/// The same, whether or not parameters of it are being changed.
+std::optional<failure> why_unsettled(const cell_coordinator_state& st,
+                                     const std::string& task);
+
 /// The steps of a task that have ended otherwise than with 0, and those whose
 /// node has gone from the cell.
 std::vector<std::string> steps_to_heal(const cell_coordinator_state& st,

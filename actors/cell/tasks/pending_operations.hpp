@@ -82,6 +82,14 @@ struct awaited_safety {
       std::chrono::steady_clock::time_point::max();
 };
 
+/// Parameters of an instance that are being changed.
+struct parameter_change_run {
+  std::string task;
+  /// Its node has registered meanwhile, and is told once it is over what the
+  /// task says.
+  bool restate = false;
+};
+
 /// What of the coordinator's work on tasks goes on at present.
 struct pending_operations {
   uint64_t last_placement_lock = 0;
@@ -95,6 +103,8 @@ struct pending_operations {
   std::map<std::string, std::chrono::steady_clock::time_point> remains;
   std::vector<awaited_safety> not_stop_safe;
   std::vector<awaited_deployments> deployments_awaited;
+  /// By instance.
+  std::map<std::string, parameter_change_run> parameter_changes;
 };
 
 /// When a change is to be tried again; time_point::max(): none waits for that.

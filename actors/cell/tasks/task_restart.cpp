@@ -166,6 +166,17 @@ instance_list all_instances(const cell_coordinator_state& st,
 
 std::optional<failure> why_busy(const cell_coordinator_state& st,
                                 const std::string& task) {
+  for (const auto& [instance, change] : st.pending.parameter_changes)
+    if (change.task == task)
+      return failure{error_code::conflict,
+                     "parameters of instance '" + instance
+                         + "' are being changed",
+                     "/task", "send it again in a while"};
+  return why_unsettled(st, task);
+}
+
+std::optional<failure> why_unsettled(const cell_coordinator_state& st,
+                                     const std::string& task) {
   const auto* entry = st.tasks.find(task);
   if (!entry || entry->ending || entry->state == task_state::deploying)
     return failure{error_code::conflict,

@@ -27,11 +27,35 @@ std::string bounded_text(std::string_view bytes, size_t most) {
   return result;
 }
 
+/// What a line says after its name; none: it is another one.
+std::optional<std::string_view> value_of(std::string_view line,
+                                         std::string_view name) {
+  if (line.substr(0, name.size()) != name)
+    return std::nullopt;
+  return line.substr(name.size());
+}
+
+/// 0 for what is no number of a change. The largest is what JSON carries
+/// exactly.
+int64_t change_number(std::string_view text) {
+  constexpr int64_t most = 9'007'199'254'740'991;
+  int64_t result = 0;
+  const auto* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, result);
+  return error == std::errc{} && rest == end && result > 0 && result <= most
+             ? result
+             : 0;
+}
+
+/// "7 a reason"
+void read_refusal(std::string_view text, notification& result) {
+  const auto end = std::min(text.find(' '), text.size());
+  result.parameters_refused = change_number(text.substr(0, end));
+  if (result.parameters_refused > 0 && end < text.size())
+    result.refusal = bounded_text(text.substr(end + 1), max_refusal_bytes);
+}
+
 void read_line(std::string_view line, notification& result) {
-  constexpr std::string_view status = "STATUS=";
-  constexpr std::string_view streams = "ROSCELL_STREAMS=";
-  constexpr std::string_view frames = "ROSCELL_FRAMES=";
-  constexpr std::string_view remark = "ROSCELL_REMARK=";
   if (line == "READY=1")
     result.ready = true;
   else if (line == "WATCHDOG=1")
@@ -42,14 +66,18 @@ void read_line(std::string_view line, notification& result) {
     result.safe = safe_word::safe;
   else if (line == "ROSCELL_SAFE=0")
     result.safe = safe_word::unsafe;
-  else if (line.substr(0, status.size()) == status)
-    result.status = bounded_text(line.substr(status.size()), max_status_bytes);
-  else if (line.substr(0, streams.size()) == streams)
-    result.streams = read_streams(line.substr(streams.size()));
-  else if (line.substr(0, frames.size()) == frames)
-    result.frames = read_frames(line.substr(frames.size()));
-  else if (line.substr(0, remark.size()) == remark)
-    result.remark = bounded_text(line.substr(remark.size()), max_remark_bytes);
+  else if (const auto status = value_of(line, "STATUS="))
+    result.status = bounded_text(*status, max_status_bytes);
+  else if (const auto streams = value_of(line, "ROSCELL_STREAMS="))
+    result.streams = read_streams(*streams);
+  else if (const auto frames = value_of(line, "ROSCELL_FRAMES="))
+    result.frames = read_frames(*frames);
+  else if (const auto remark = value_of(line, "ROSCELL_REMARK="))
+    result.remark = bounded_text(*remark, max_remark_bytes);
+  else if (const auto taken = value_of(line, "ROSCELL_PARAMETERS_TAKEN="))
+    result.parameters_taken = change_number(*taken);
+  else if (const auto refused = value_of(line, "ROSCELL_PARAMETERS_REFUSED="))
+    read_refusal(*refused, result);
 }
 
 } // namespace
@@ -81,6 +109,13 @@ void merge(notification& before, notification later) {
     before.safe = later.safe;
   if (!later.streams.empty())
     before.streams = std::move(later.streams);
+  // Of several changes the last one counts, whatever became of the others.
+  if (later.parameters_taken > before.parameters_taken)
+    before.parameters_taken = later.parameters_taken;
+  if (later.parameters_refused > before.parameters_refused) {
+    before.parameters_refused = later.parameters_refused;
+    before.refusal = std::move(later.refusal);
+  }
 }
 
 namespace {

@@ -25,6 +25,13 @@ struct notification {
   /// ROSCELL_REMARK=, why nothing comes of its frames.
   std::vector<stream_count> frames;
   std::string remark;
+  /// ROSCELL_PARAMETERS_TAKEN=, the number of a change of parameters that the
+  /// program works with now; 0: not said.
+  int64_t parameters_taken = 0;
+  /// ROSCELL_PARAMETERS_REFUSED=, the number of one that it does not take, and
+  /// after a blank why, in a sentence.
+  int64_t parameters_refused = 0;
+  std::string refusal;
 };
 
 /// Longest datagram that is read; longer ones are ignored whole.
@@ -36,6 +43,9 @@ constexpr size_t max_status_bytes = 512;
 
 /// Longest remark that is kept, in bytes.
 constexpr size_t max_remark_bytes = 256;
+
+/// Longest refusal that is kept, in bytes.
+constexpr size_t max_refusal_bytes = 512;
 
 /// A line that tells of more streams is ignored: a step has at most 16 inputs
 /// and as many outputs.

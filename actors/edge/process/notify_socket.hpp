@@ -35,8 +35,6 @@ std::filesystem::path
 environment_file_of(const std::filesystem::path& notify_socket);
 
 /// Makes one, before the program is started, in place of an older one.
-/// Without it the program cannot be told anything; that is no reason not to
-/// start it.
 void make_environment_file(const std::filesystem::path& file);
 
 /// Writes the variables, as a JSON object of texts on a line. False where

@@ -4,6 +4,7 @@
 #include "actors/edge/io/unique_fd.hpp"
 #include "actors/edge/process/fence_file.hpp"
 #include "actors/edge/process/notify_socket.hpp"
+#include "actors/edge/process/parameter_file.hpp"
 #include "actors/instances/engine/container_document.hpp"
 #include "actors/instances/engine/engine_parts.hpp"
 #include "actors/instances/life/any_runtime.hpp"
@@ -207,8 +208,10 @@ caf::result<container_started> start(engine_runtime_pointer self,
     return error;
   if (auto error = make_exit_file(self, request.instance))
     return error;
-  make_environment_file(environment_file_of(
-      container_notify_path(self->state.config.data_dir, request.instance)));
+  const auto socket =
+      container_notify_path(self->state.config.data_dir, request.instance);
+  make_environment_file(environment_file_of(socket));
+  make_parameter_file(parameter_file_of(socket));
   fresh.settling = true;
   auto& st = self->state;
   st.unwanted.erase(request.instance);

@@ -32,8 +32,19 @@ void keep_fence(const actor_context& context, const std::filesystem::path& file,
 inline instance_notified status_notification(const std::string& instance,
                                              const notification& x,
                                              bool heard) {
-  return {instance, x.ready, x.alive,   x.stopping, x.status,
-          heard,    x.safe,  x.streams, x.frames,   x.remark};
+  return {instance,
+          x.ready,
+          x.alive,
+          x.stopping,
+          x.status,
+          heard,
+          x.safe,
+          x.streams,
+          x.frames,
+          x.remark,
+          x.parameters_taken,
+          x.parameters_refused,
+          x.refusal};
 }
 
 // Followers of logs.

@@ -54,6 +54,22 @@ instance_environment(const instance_spec& spec,
   return result;
 }
 
+std::string changeable_parameters(const skill_descriptor& skill,
+                                  const std::string& model) {
+  auto result = json::object();
+  for (const auto& x : skill.models) {
+    if (x.name != model || x.parameters.empty())
+      continue;
+    const auto declared = json::parse(x.parameters, nullptr, false);
+    if (!declared.is_object())
+      continue;
+    for (const auto& [name, what] : declared.items())
+      if (what.is_object() && what.value("changeable", false))
+        result[name] = what;
+  }
+  return result.empty() ? std::string{} : text_of(result);
+}
+
 std::string exit_code_text(int code) {
   if (code < 0)
     return "in an unknown way";

@@ -24,6 +24,11 @@ instance_environment(const instance_spec& spec,
                      const deployment_option& deployment,
                      const std::map<std::string, std::string>& of_node = {});
 
+/// The parameters of a model that can be changed while it runs, as it declares
+/// them, a JSON object; empty: none can.
+std::string changeable_parameters(const skill_descriptor& skill,
+                                  const std::string& model);
+
 // Texts about instances: how they have ended, and why.
 
 /// "with exit code 3", "by signal 9", or "in an unknown way" for a negative

@@ -96,6 +96,10 @@ void on_alarm(skill_instance_pointer self) {
     return on_patience_over(self);
   if (st.patience)
     st.timer.set(self, *st.patience);
+  if (st.change && now >= st.change->until)
+    on_change_late(self);
+  if (st.change)
+    st.timer.set(self, st.change->until);
   if (!st.deadline)
     return;
   if (now < *st.deadline)
@@ -144,6 +148,7 @@ void on_notified(skill_instance_pointer self, const instance_notified& x) {
   if (x.alive && st.row.state == instance_state::running)
     on_sign_of_life(self);
   follow_health(self, x);
+  on_change_answered(self, x);
   if (x.heard && st.listening)
     judge(self);
 }
@@ -167,6 +172,7 @@ skill_instance_actor::behavior_type
 skill_instance(skill_instance_pointer self,
                const skill_instance_config& config) {
   self->state.config = config;
+  self->state.adopting = config.adopt;
   self->state.row = config.row;
   self->state.has_run = has_run_before(config.row);
   self->state.started_at = config.started_at;

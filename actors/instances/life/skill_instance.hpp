@@ -3,10 +3,13 @@
 #include "actors/core/actor_context.hpp"
 #include "actors/core/alarm.hpp"
 #include "actors/edge/process/notify_socket.hpp"
+#include "actors/edge/process/parameter_file.hpp"
 #include "actors/edge/process/skill_grants.hpp"
 #include "actors/instances/life/health_table.hpp"
 #include "actors/instances/skills/current_skills.hpp"
 #include "messages/messages.hpp"
+
+#include <caf/typed_response_promise.hpp>
 
 #include <chrono>
 #include <map>
@@ -47,9 +50,18 @@ struct skill_instance_config {
   /// when it is told; empty: it goes on.
   std::string renewal;
   environment_writer write_environment_update; ///< Empty: it cannot be told.
+  parameter_writer write_parameters;           ///< The same.
   shared_skill_grants grants;  ///< Null: nothing is granted to any skill.
   std::string node;            ///< Its name, for what it says.
   secret_keeper_actor secrets; ///< Invalid: this node keeps none.
+};
+
+/// A change of parameters that its program has been told, and who waits for it.
+struct awaited_parameters {
+  int64_t number = 0;
+  std::string parameters; ///< All that there are to be.
+  std::chrono::steady_clock::time_point until;
+  caf::typed_response_promise<parameters_set> promise;
 };
 
 /// Owns one instance from intent to end. The diagram is in docs/protocols.md.
@@ -126,6 +138,24 @@ struct skill_instance_state {
   /// is alive: its endpoints say both. None: it speaks for itself.
   std::optional<watch_endpoints> endpoints;
   std::vector<std::string> missing; ///< Of these, as they were told last.
+
+  /// Number of the change that its program was told last; 0: none by this
+  /// process of the node.
+  int64_t last_change = 0;
+  std::optional<awaited_parameters> change; ///< That is not answered.
+
+  /// Its program is known to work with what its spec says. Not so of one that
+  /// an earlier run of the node has told something, maybe.
+  bool works_with_spec = true;
+
+  /// Number of the change by which it was last put back to that; 0: none.
+  int64_t correction = 0;
+
+  /// Its program is to be given what its spec says once it is known to run.
+  bool passes_on_when_ready = false;
+
+  /// Whether its program runs at all is not known yet.
+  bool adopting = false;
 
   std::optional<alarm::time_point> deadline;
   alarm timer;

@@ -106,6 +106,9 @@ std::optional<program_plan> program_of(skill_instance_pointer self,
   auto& st = self->state;
   if (descriptor.ros2.empty()) {
     program_plan result{descriptor.entry_point, {}};
+    if (auto changeable = changeable_parameters(descriptor, st.row.spec.model);
+        !changeable.empty())
+      result.environment["ROSCELL_CHANGEABLE"] = std::move(changeable);
     result.command.insert(result.command.end(), st.row.spec.arguments.begin(),
                           st.row.spec.arguments.end());
     return result;
@@ -209,6 +212,7 @@ void resume(skill_instance_pointer self, const std::string& container) {
   auto& st = self->state;
   ++st.phase;
   st.row.container = container;
+  st.works_with_spec = false;
   recall_endpoints(self);
   switch (st.row.state) {
   case instance_state::running:
@@ -217,6 +221,7 @@ void resume(skill_instance_pointer self, const std::string& container) {
     report(self);
     expect_life(self);
     resume_leaving(self);
+    pass_on_when_ready(self);
     return renew(self);
   case instance_state::stopping:
     st.farewell = st.row.reason;
@@ -253,6 +258,7 @@ void on_found_ended(skill_instance_pointer self, const container_adopted& x) {
 }
 
 void on_adopted(skill_instance_pointer self, const container_adopted& x) {
+  self->state.adopting = false;
   const auto& row = self->state.row;
   const bool was_started = !x.container.empty() || !row.container.empty()
                            || row.state >= instance_state::running;

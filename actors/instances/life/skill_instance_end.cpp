@@ -48,6 +48,8 @@ void forget_run(skill_instance_state& st) {
   st.endpoints.reset();
   st.missing.clear();
   st.fence_boot_ms = 0;
+  st.works_with_spec = true;
+  st.passes_on_when_ready = false;
   st.row.container.clear();
   st.row.status.clear();
   st.row.safe = safe_word::untold;

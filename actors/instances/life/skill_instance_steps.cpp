@@ -46,6 +46,7 @@ void set_state(skill_instance_pointer self, instance_state next,
                const std::string& reason) {
   auto& st = self->state;
   ++st.phase;
+  drop_change(self, "it does not run any more");
   st.deadline.reset();
   st.listening = st.was_away = st.excused = false;
   st.row.state = next;
@@ -161,6 +162,7 @@ void on_running(skill_instance_pointer self) {
     limit(self, limits::instance::watchdog);
   if (!was_just_noted(self))
     note(self);
+  pass_on_when_ready(self);
 }
 
 void on_started(skill_instance_pointer self, const std::string& container) {

@@ -172,6 +172,27 @@ void on_sight(skill_instance_pointer self, const endpoints_missing& x);
 /// Nothing that was said of a run that is over counts for the next one.
 void forget_health(skill_instance_state& st);
 
+// -- skill_instance_parameters.cpp: other parameters while it runs ------------
+
+/// Has the program work with these, and writes them down once it does. A newer
+/// request takes the place of one that is not answered. Errors: see
+/// `skill_instance_actor`.
+caf::result<parameters_set> take_parameters(skill_instance_pointer self,
+                                            const set_parameters& request);
+
+/// What is waited for will not be answered.
+void drop_change(skill_instance_pointer self, const std::string& why);
+
+/// Its program has answered, maybe.
+void on_change_answered(skill_instance_pointer self,
+                        const instance_notified& x);
+
+/// It has not in time.
+void on_change_late(skill_instance_pointer self);
+
+/// It is ready, and is told what has changed since it was started.
+void pass_on_when_ready(skill_instance_pointer self);
+
 // -- skill_instance_steps.cpp -------------------------------------------------
 
 /// Ends the program, then the instance, which will be `last`.
@@ -198,10 +219,6 @@ void build(skill_instance_pointer self);
 
 /// Where its cell is now, as far as its programs are concerned.
 void on_place(skill_instance_pointer self, const use_environment& place);
-
-/// Errors: see `skill_instance_actor`.
-caf::result<parameters_set> take_parameters(skill_instance_pointer self,
-                                            const set_parameters& request);
 
 /// Records the intent, builds, starts.
 void begin_anew(skill_instance_pointer self);

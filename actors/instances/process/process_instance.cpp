@@ -3,6 +3,7 @@
 #include "actors/edge/history/kept_log_folder.hpp"
 #include "actors/edge/process/fence_file.hpp"
 #include "actors/edge/process/notify_socket.hpp"
+#include "actors/edge/process/parameter_file.hpp"
 #include "actors/edge/process/process_identity.hpp"
 #include "actors/edge/process/process_spawner.hpp"
 #include "actors/instances/limits.hpp"
@@ -77,6 +78,7 @@ edge_result<unique_fd> ready_folder(const fs::path& dir) {
     return no_folder(dir, std::strerror(errno));
   auto socket = open_notify_socket(notify_path(dir));
   make_environment_file(environment_file_of(notify_path(dir)));
+  make_parameter_file(parameter_file_of(notify_path(dir)));
   return socket;
 }
 
@@ -222,6 +224,7 @@ edge_result<bool> clean_up(const process_runtime_config& config,
   // The folder goes last: it is by this that the rest is found.
   fs::remove(notify_path(dir), error);
   fs::remove(environment_file_of(notify_path(dir)), error);
+  fs::remove(parameter_file_of(notify_path(dir)), error);
   remove_fence(fence_path(dir));
   fs::remove_all(dir, error);
   if (error)

@@ -3,6 +3,7 @@
 #include "actors/edge/disk/file_rights.hpp"
 #include "actors/edge/process/fence_file.hpp"
 #include "actors/edge/process/notify_socket.hpp"
+#include "actors/edge/process/parameter_file.hpp"
 #include "actors/edge/process/privileges.hpp"
 #include "actors/instances/life/instance_text.hpp"
 #include "messages/event_kinds.hpp"
@@ -123,7 +124,8 @@ std::optional<edge_error> let_in(const start_container& request,
                         "cannot let the user '" + request.user + "' into '"
                             + x.string() + "': " + std::strerror(errno),
                         {}};
-  for (const auto& x : {socket, environment_file_of(socket)})
+  for (const auto& x :
+       {socket, environment_file_of(socket), parameter_file_of(socket)})
     if (!let_user(x, account->user, access_right::read_and_write)
         && errno != ENOENT)
       return edge_error{error_code::engine_failed,

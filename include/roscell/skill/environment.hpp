@@ -39,6 +39,8 @@ struct stream {
 ///   microseconds without WATCHDOG=1 | no watchdog |
 /// | ROSCELL_SECRETS | folder with a file for each secret that the step names |
 ///   there are none |
+/// | ROSCELL_CHANGEABLE | JSON object: those of them that can be changed while
+///   it runs, as the descriptor declares them | none can |
 /// | ROSCELL_HEALTH | 1: the node wants to know what the streams do | it is not
 ///   told |
 struct environment {
@@ -51,6 +53,7 @@ struct environment {
   std::vector<stream> inputs;
   std::vector<stream> outputs;
   engine::parameters parameters;
+  std::string changeable; ///< JSON object; empty: none.
   std::optional<unsigned> gpu;
   std::string notify_socket;
   std::optional<std::chrono::microseconds> watchdog;

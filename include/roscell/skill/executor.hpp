@@ -1,6 +1,8 @@
 #pragma once
 
+#include "roscell/skill/errors.hpp"
 #include "roscell/skill/frame.hpp"
+#include "roscell/skill/parameters.hpp"
 #include "roscell/skill/safe_state.hpp"
 
 #include <cstddef>
@@ -71,6 +73,17 @@ public:
   /// reported.
   virtual void on_safety_wanted() {
     // Who never calls `set_safe` need not care.
+  }
+
+  /// Some parameters that the descriptor marks as changeable are to have other
+  /// values from the next frame on; `now` is all of them, as they are to be.
+  /// Called between two frames. To refuse them, throw: what the exception says
+  /// is the reason that the operator reads, and the old ones stay in force, so
+  /// read all of them before you change anything. Parameters of the engine and
+  /// of inputs and outputs never change.
+  virtual void on_parameters(const parameters& now) {
+    (void)now;
+    throw start_error("this skill does not take parameters while it runs");
   }
 
 protected:

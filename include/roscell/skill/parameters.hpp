@@ -50,6 +50,9 @@ public:
   /// be read with a library of the author's choice. Empty when it is absent.
   std::string json(const std::string& name) const;
 
+  /// All of them, a JSON object.
+  std::string all() const;
+
 private:
   struct content;
 

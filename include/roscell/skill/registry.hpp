@@ -2,6 +2,7 @@
 
 #include "roscell/skill/executor.hpp"
 #include "roscell/skill/handlers.hpp"
+#include "roscell/skill/parameter_view.hpp"
 
 #include <functional>
 #include <map>
@@ -18,6 +19,9 @@ using input_factory =
 using output_factory =
     std::function<std::unique_ptr<output_handler>(const stream_context&)>;
 
+using view_factory = std::function<std::unique_ptr<parameter_view>(
+    const environment&, const say_function&)>;
+
 /// What a skill's binary is able to run: executors by implementation model,
 /// input and output handlers by protocol. Starts with the `file` protocol; a
 /// library with another protocol offers a function that adds it here. It is
@@ -30,6 +34,9 @@ public:
   void add_executor(const std::string& model, executor_factory make);
   void add_input(const std::string& protocol, input_factory make);
   void add_output(const std::string& protocol, output_factory make);
+
+  /// Shows parameters of skills whose step uses that protocol.
+  void set_parameter_view(const std::string& protocol, view_factory make);
 
   /// Adds a class that is constructed from `const environment&`, or from
   /// nothing.
@@ -50,6 +57,11 @@ public:
   std::unique_ptr<output_handler>
   make_output(const stream_context& output) const;
 
+  /// Null for a skill without a parameter that can be changed, or whose step
+  /// does not use the protocol.
+  std::unique_ptr<parameter_view>
+  make_parameter_view(const environment& env, const say_function& say) const;
+
   /// One line for people: models and protocols.
   std::string summary() const;
 
@@ -57,6 +69,8 @@ private:
   std::map<std::string, executor_factory> executors_;
   std::map<std::string, input_factory> inputs_;
   std::map<std::string, output_factory> outputs_;
+  std::string view_protocol_;
+  view_factory make_view_;
 };
 
 } // namespace roscell::engine

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/signalfd.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,7 +11,6 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -77,9 +77,56 @@ unique_fd open_fifo(const std::string& path) {
   return result;
 }
 
-/// Empty for what is no such object.
-changed_variables read_variables(std::string_view text) {
-  const auto document = nlohmann::json::parse(text, nullptr, false);
+} // namespace
+
+fifo_watch::fifo_watch(std::vector<heard_lines> heard) {
+  for (auto& x : heard)
+    if (auto fifo = open_fifo(x.path))
+      sources_.push_back({std::move(x), std::move(fifo), {}});
+  if (!sources_.empty())
+    thread_ = std::thread{[this] { run(); }};
+}
+
+fifo_watch::~fifo_watch() {
+  stop_.set();
+  if (thread_.joinable())
+    thread_.join();
+}
+
+void fifo_watch::run() {
+  std::vector<pollfd> waited{{stop_.fd(), POLLIN, 0}};
+  for (const auto& x : sources_)
+    waited.push_back({x.fifo.get(), POLLIN, 0});
+  for (;;) {
+    if (::poll(waited.data(), waited.size(), -1) < 1)
+      continue; // Interrupted by a signal.
+    if (waited[0].revents != 0)
+      return;
+    for (std::size_t i = 0; i < sources_.size(); ++i)
+      if (waited[i + 1].revents != 0)
+        take(sources_[i]);
+  }
+}
+
+/// Of several lines each is obeyed: the last one counts in the end.
+void fifo_watch::take(source& from) {
+  std::array<char, 4096> bytes{};
+  const auto size = ::read(from.fifo.get(), bytes.data(), bytes.size());
+  if (size <= 0)
+    return;
+  auto& heard = from.begun;
+  heard.append(bytes.data(), static_cast<std::size_t>(size));
+  for (auto end = heard.find('\n'); end != std::string::npos;
+       end = heard.find('\n')) {
+    from.target.take(heard.substr(0, end));
+    heard.erase(0, end + 1);
+  }
+  if (heard.size() > most_bytes)
+    heard.clear();
+}
+
+changed_variables read_changed_variables(const std::string& line) {
+  const auto document = nlohmann::json::parse(line, nullptr, false);
   changed_variables result;
   if (!document.is_object())
     return result;
@@ -91,47 +138,16 @@ changed_variables read_variables(std::string_view text) {
   return result;
 }
 
-} // namespace
-
-environment_watch::environment_watch(const std::string& notify_socket,
-                                     callback on_change)
-    : on_change_(std::move(on_change)),
-      fifo_(open_fifo(notify_socket + ".environment")) {
-  if (fifo_)
-    thread_ = std::thread{[this] { run(); }};
-}
-
-environment_watch::~environment_watch() {
-  stop_.set();
-  if (thread_.joinable())
-    thread_.join();
-}
-
-void environment_watch::run() {
-  while (stop_.wait_readable(fifo_.get()))
-    take();
-}
-
-/// Of several lines each is obeyed: the last one counts in the end.
-void environment_watch::take() {
-  std::array<char, 4096> bytes{};
-  const auto size = ::read(fifo_.get(), bytes.data(), bytes.size());
-  if (size <= 0)
-    return;
-  heard_.append(bytes.data(), static_cast<std::size_t>(size));
-  for (auto end = heard_.find('\n'); end != std::string::npos;
-       end = heard_.find('\n')) {
-    obey(heard_.substr(0, end));
-    heard_.erase(0, end + 1);
-  }
-  if (heard_.size() > most_bytes)
-    heard_.clear();
-}
-
-void environment_watch::obey(const std::string& line) {
-  auto reported = read_variables(line);
-  if (!reported.empty())
-    on_change_(std::move(reported));
+ordered_parameters read_parameter_line(const std::string& line) {
+  const auto document = nlohmann::json::parse(line, nullptr, false);
+  if (!document.is_object())
+    return {};
+  const auto number = document.find("number");
+  const auto values = document.find("parameters");
+  if (number == document.end() || !number->is_number_integer()
+      || values == document.end() || !values->is_object())
+    return {};
+  return {number->get<std::int64_t>(), values->dump()};
 }
 
 } // namespace roscell::engine

@@ -4,9 +4,11 @@
 #include "roscell/skill/stop_event.hpp"
 #include "skills/engine/life/unique_fd.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace roscell::engine {
 
@@ -36,32 +38,51 @@ private:
   std::thread thread_;
 };
 
-/// Hears, on a thread of its own, that the cell is to be found elsewhere: where
-/// this host has got another address the node writes variables with their new
-/// values, as a JSON object of texts on a line, into the FIFO
-/// `$NOTIFY_SOCKET.environment` that it has made. By its having a reader the
-/// node knows that somebody listens.
-class environment_watch {
-public:
-  using callback = std::function<void(changed_variables)>;
+/// A FIFO that the node has made beside NOTIFY_SOCKET, and who takes the lines
+/// that it writes there.
+struct heard_lines {
+  std::string path;
+  std::function<void(const std::string& line)> take;
+};
 
-  /// Hears nothing where there is no such FIFO: the node then starts the skill
-  /// again.
-  environment_watch(const std::string& notify_socket, callback on_change);
+/// Hears, on a thread of its own, what the node writes into FIFOs. By their
+/// having a reader the node knows that somebody listens; it cannot tell
+/// anything where there is none. Without a FIFO there is no thread.
+class fifo_watch {
+public:
+  explicit fifo_watch(std::vector<heard_lines> heard);
 
   /// There are no calls after it.
-  ~environment_watch();
+  ~fifo_watch();
 
 private:
-  void run();
-  void take();
-  void obey(const std::string& line);
+  struct source {
+    heard_lines target;
+    unique_fd fifo;
+    std::string begun; ///< Of a line that has not ended.
+  };
 
-  const callback on_change_;
-  unique_fd fifo_;
-  std::string heard_; ///< Of a line that has not ended.
+  void run();
+  static void take(source& from);
+
+  std::vector<source> sources_;
   stop_event stop_;
   std::thread thread_;
 };
+
+// What is written there. Lines that are none of these say nothing.
+
+/// This host has got another address, and the cell is to be found elsewhere: a
+/// JSON object of variables with their new values, in `.environment`.
+changed_variables read_changed_variables(const std::string& line);
+
+/// Other parameters, in `.parameters`.
+struct ordered_parameters {
+  std::int64_t number = 0; ///< That the answer names; 0: the line is none.
+  std::string values;      ///< JSON object of all of them.
+};
+
+/// Reads {"number":7,"parameters":{...}}.
+ordered_parameters read_parameter_line(const std::string& line);
 
 } // namespace roscell::engine

@@ -84,6 +84,14 @@ caf::behavior agent(caf::event_based_actor* self, fake_agent* x) {
         else
           x->take_down(promise, what);
       },
+      [=](const set_parameters& what) {
+        x->changes.push_back(what);
+        auto promise = self->make_response_promise();
+        if (x->slow_changes)
+          x->changing.emplace_back(promise, what.instance);
+        else
+          promise.deliver(parameters_set{what.instance});
+      },
       [=](const instance_query&) {
         instance_description result;
         for (const auto& [id, row] : x->running)
@@ -277,6 +285,16 @@ void fake_agent::finish_starting() {
   inside(*this, [this] {
     for (auto& [promise, spec] : std::exchange(starting, {}))
       bring_up(promise, spec);
+  });
+}
+
+void fake_agent::finish_changes(const std::optional<failure>& refusal) {
+  inside(*this, [this, refusal] {
+    for (auto& [promise, instance] : std::exchange(changing, {}))
+      if (refusal)
+        promise.deliver(to_error(*refusal));
+      else
+        promise.deliver(parameters_set{instance});
   });
 }
 

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -55,6 +56,8 @@ struct fake_agent {
   build_name shared_build;
   std::vector<std::string> releases; ///< Hashes.
   std::vector<instance_removal> removals;
+  std::vector<set_parameters> changes;     ///< Of parameters, as it was told.
+  bool slow_changes = false;               ///< Answers these when told to.
   std::vector<registration_switch> orders; ///< To go elsewhere.
   std::vector<std::string> closed;         ///< Reasons of `close_session`.
   std::vector<std::string> kept; ///< Instances of the coordination node.
@@ -63,6 +66,7 @@ struct fake_agent {
   std::vector<std::pair<caf::response_promise, instance_spec>> starting;
   std::vector<std::pair<caf::response_promise, resource_report>> reports;
   std::vector<std::pair<caf::response_promise, instance_removal>> ending;
+  std::vector<std::pair<caf::response_promise, std::string>> changing;
   std::vector<caf::response_promise> unanswered;
   std::vector<std::function<void()>> todo; ///< For the actor itself.
 
@@ -78,6 +82,7 @@ struct fake_agent {
   /// End what has been kept waiting, once messages are handled: a promise can
   /// only be kept by its actor.
   void finish_starting();
+  void finish_changes(const std::optional<failure>& refusal = std::nullopt);
   void fail_starting(const std::string& reason);
   void report_metrics(); ///< Of what it was asked while it was mute.
   void finish_reports();

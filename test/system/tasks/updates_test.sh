@@ -2,6 +2,8 @@
 # and what does not run well is put back. Lines and frames are counted at the far
 # end.
 
+. test/system/scenes/pick.sh
+
 start_alone() {
   start_node head --coordinator --cell line --interface lo --cpu-floor 1
 }
@@ -228,51 +230,11 @@ test_a_running_task_is_replaced_where_that_is_asked_for() {
   expect "run" "$(of_task short .run)" 2
 }
 
-# pick_task DECIMATION: a camera, its poses, and a witness that reads the same
-# pictures.
-pick_task() {
-  jq -n --arg pictures "$scratch/scenes/scene_1" --arg out "$scratch" \
-    --argjson decimation "$1" '
-    def ros2($topic; $type): {protocol: "ros2", endpoint: "/pick/\($topic)",
-                              data_type: $type};
-    def eye($id; $name; $decimation):
-      {id: $id, operation: "pose_estimation", model: "apriltag3",
-       parameters: {decimation: $decimation},
-       input: [ros2("image"; "sensor_msgs/msg/Image"),
-               ros2("camera_info"; "sensor_msgs/msg/CameraInfo")],
-       output: [ros2($name; "tf2_msgs/msg/TFMessage"),
-                {protocol: "file", endpoint: "\($out)/\($name)",
-                 data_type: "application/json"}]};
-    {task: "pick", update: {healthy_for_s: 2}, pipeline: [
-      {id: "camera", operation: "image_source", model: "folder",
-       parameters: {rate_hz: 10, loop: true, follow: false},
-       input: {protocol: "file", endpoint: $pictures, data_type: "image/png"},
-       output: [ros2("image"; "sensor_msgs/msg/Image"),
-                ros2("camera_info"; "sensor_msgs/msg/CameraInfo")]},
-      eye("pose"; "poses"; $decimation), eye("witness"; "seen"; 2)]}'
-}
-
-# more_lines FILE COUNT: until so many more frames have come.
-more_lines() {
-  local before
-  before=$(wc -l < "$1")
-  timeout "$deadline_s" grep -m "$2" frame_id > "$scratch/matches" \
-    < <(exec tail --pid=$$ -n +"$((before + 1))" -F "$1" 2> /dev/null) \
-    || fail "no more frames in $1"
-}
-
-# frames_of STEP KIND: that its skill has counted, in or out.
-frames_of() {
-  of_step pick "$1" ".figures.streams[] | select(.end | startswith(\"$2\")) | .frames" \
-    | head -n 1
-}
-
 test_frames_of_steps_that_do_not_differ_are_neither_lost_nor_doubled() {
   local camera witness old fresh
   use_skills_of_camera
   start_alone
-  "$ROSCELL_BUILD/bin/render_scenes" --tags 4 --frames 4 --width 320 \
-    --height 240 "$scratch/scenes" > /dev/null || fail "no scenes"
+  make_scenes
   pick_task 2 > "$scratch/pick.json"
   to head run "$scratch/pick.json" > "$scratch/out" 2>&1 || fail "$(cat "$scratch/out")"
   more_lines "$scratch/seen" 5
@@ -304,12 +266,4 @@ test_frames_of_steps_that_do_not_differ_are_neither_lost_nor_doubled() {
   awk 'NR > 1 && $1 - last > 0.19 { print last, $1 } { last = $1 }' \
     "$scratch/stamps" > "$scratch/gaps"
   expect "gaps between frames of the witness" "$(cat "$scratch/gaps")" ""
-}
-
-use_skills_of_camera() {
-  local name
-  for name in image_source pose_estimation; do
-    cp -r "$ROSCELL_BUILD/skills/$name" "$skills"
-    ask_no_cpu "$skills/$name"
-  done
 }

@@ -119,4 +119,9 @@ TEST_CASE("names are found in the answers of a node", "[shell]") {
   const auto node = json::parse(R"({"actors":[{"name":"member","id":7}]})");
   CHECK(names_in("actors", node) == words{"member"});
   CHECK(names_in("planets", tasks).empty());
+  const auto skills = R"({"skills": [{"skill": {"descriptor": {"models": [
+      {"name": "m", "parameters": {"size": 4,
+       "gain": {"type": "number", "changeable": true},
+       "loop": {"type": "boolean"}}}, {"name": "n"}]}}}]})"_json;
+  CHECK(names_in("parameters", skills) == words{"gain="});
 }

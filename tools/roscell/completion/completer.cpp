@@ -290,6 +290,7 @@ constexpr value_source sources[] = {
     {"TASK|INSTANCE", "ids instances"},
     {"INSTANCE", "ids instances"},
     {"SECRET", "ids secrets"},
+    {"PARAMETER", "ids parameters"},
     {"SHELL", "words bash zsh fish"},
     {"COMMAND", "commands"},
     {"PROGRAM", "nothing"},

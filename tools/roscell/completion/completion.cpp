@@ -183,7 +183,7 @@ struct name_source {
   const char* path;
   const char* body;
   const char* list;
-  const char* name; ///< JSON pointer in an item.
+  const char* name; ///< JSON pointer in an item, or to models of a skill.
 };
 
 constexpr auto transfers_asked = R"({"type":"transfer_query"})";
@@ -196,6 +196,7 @@ constexpr name_source name_sources[] = {
     {"tasks", "/v1/tasks", "", "sets", "/task"},
     {"instances", "/v1/instances", "", "instances", "/spec/instance"},
     {"secrets", "/v1/secrets", "", "secrets", "/name"},
+    {"parameters", "/v1/skills", "", "skills", "/skill/descriptor/models"},
     {"actors", "/v1/node?actors=1", "", "actors", "/name"},
     {"transfers", "/v1/requests", transfers_asked, "transfers", "/transfer"},
 };
@@ -207,6 +208,17 @@ const name_source* source_of(const std::string& kind) {
   return nullptr;
 }
 
+/// "decimation=" for each that some skill takes while it runs.
+std::vector<std::string> changeable_in(const json& models) {
+  std::vector<std::string> result;
+  for (const auto& model : models)
+    for (const auto& [name, x] :
+         model.value("parameters", json::object()).items())
+      if (x.is_object() && x.value("changeable", false))
+        result.push_back(name + "=");
+  return result;
+}
+
 } // namespace
 
 std::vector<std::string> names_in(const std::string& kind, const json& reply) {
@@ -216,9 +228,16 @@ std::vector<std::string> names_in(const std::string& kind, const json& reply) {
     if (source.kind != kind || list == reply.end())
       continue;
     const json::json_pointer name{source.name};
-    for (const auto& item : *list)
-      if (item.contains(name) && item.at(name).is_string())
-        result.push_back(item.at(name).get<std::string>());
+    for (const auto& item : *list) {
+      if (!item.contains(name))
+        continue;
+      const auto& found = item.at(name);
+      if (found.is_string())
+        result.push_back(found.get<std::string>());
+      for (auto& x :
+           found.is_array() ? changeable_in(found) : std::vector<std::string>{})
+        result.push_back(std::move(x));
+    }
   }
   return result;
 }

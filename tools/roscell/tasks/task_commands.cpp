@@ -193,6 +193,7 @@ void add_task_commands(CLI::App& app, action& chosen) {
   add_rollback_command(app, chosen);
   add_stop_command(app, chosen);
   add_restart(app, chosen);
+  add_set_command(app, chosen);
 }
 
 } // namespace roscell::cli

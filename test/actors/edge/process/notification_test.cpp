@@ -153,3 +153,41 @@ TEST_CASE("merged notifications keep all values and the last status") {
   CHECK((before.ready && before.stopping));
   CHECK(before.status == "new");
 }
+
+TEST_CASE("a program says by its number which change of parameters it takes") {
+  CHECK(parse_notification("ROSCELL_PARAMETERS_TAKEN=7").parameters_taken == 7);
+  const auto refused =
+      parse_notification("ROSCELL_PARAMETERS_REFUSED=8 too\tloud, by far");
+  CHECK(refused.parameters_refused == 8);
+  CHECK(refused.refusal == "too loud, by far");
+  CHECK(parse_notification("ROSCELL_PARAMETERS_REFUSED=9").parameters_refused
+        == 9);
+  const auto longest = parse_notification("ROSCELL_PARAMETERS_REFUSED=9 "
+                                          + std::string(3000, 'x'));
+  CHECK(longest.refusal.size() == max_refusal_bytes);
+}
+
+TEST_CASE("an answer without a number that can be is none") {
+  for (const std::string text :
+       {"", "0", "-1", "x", "1x", " 1", "9007199254740992", "1.5"}) {
+    CHECK(
+        parse_notification("ROSCELL_PARAMETERS_TAKEN=" + text).parameters_taken
+        == 0);
+    const auto refused =
+        parse_notification("ROSCELL_PARAMETERS_REFUSED=" + text + " why");
+    CHECK((refused.parameters_refused == 0) == refused.refusal.empty());
+  }
+}
+
+TEST_CASE("merged notifications keep the answers to the newest changes") {
+  auto before = parse_notification("ROSCELL_PARAMETERS_TAKEN=5\n"
+                                   "ROSCELL_PARAMETERS_REFUSED=6 why");
+  merge(before, parse_notification("WATCHDOG=1"));
+  CHECK(before.parameters_taken == 5);
+  CHECK(before.parameters_refused == 6);
+  merge(before, parse_notification("ROSCELL_PARAMETERS_TAKEN=7"));
+  CHECK(before.parameters_taken == 7);
+  CHECK(before.refusal == "why");
+  merge(before, parse_notification("ROSCELL_PARAMETERS_REFUSED=8 other"));
+  CHECK(before.refusal == "other");
+}

@@ -140,3 +140,17 @@ TEST_CASE("the spec's variables replace the deployment's, not the contract") {
   CHECK(env.at("B") == "spec");
   CHECK(env.at("ROSCELL_TASK") == "t");
 }
+
+TEST_CASE("a program is told which of its parameters can be changed") {
+  skill_descriptor skill;
+  implementation_model model;
+  model.name = "m";
+  model.parameters = R"({"size": 4, "loop": {"type": "boolean"}})";
+  skill.models = {model};
+  CHECK(changeable_parameters(skill, "m").empty());
+  skill.models[0].parameters =
+      R"({"size": 4, "gain": {"type": "number", "changeable": true}})";
+  CHECK(json::parse(changeable_parameters(skill, "m"))
+        == json{{"gain", {{"type", "number"}, {"changeable", true}}}});
+  CHECK(changeable_parameters(skill, "other").empty());
+}
