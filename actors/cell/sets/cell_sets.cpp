@@ -251,6 +251,22 @@ void note_stopped_by_user(coordinator_pointer self, const std::string& task) {
   look_at_sets(self);
 }
 
+std::optional<failure> why_kept_by_set(const cell_coordinator_state& st,
+                                       const std::string& task,
+                                       const std::string& body) {
+  const auto* entry = st.tasks.find(task);
+  const auto* known = entry ? st.sets.find(entry->set) : nullptr;
+  if (!known)
+    return std::nullopt;
+  const auto node = task.substr(task_name(entry->set, "").size());
+  if (known->tasks->of(known->request, node)->body == body)
+    return std::nullopt;
+  return failure{error_code::conflict,
+                 "task '" + task + "' is one of the set '" + entry->set
+                     + "', which would put it back",
+                 "/task", "change the set's file and `roscell apply` it"};
+}
+
 std::optional<failure> why_not_of_set(const cell_coordinator_state& st,
                                       const std::string& task,
                                       const std::string& request) {

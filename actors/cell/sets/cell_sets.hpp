@@ -37,6 +37,13 @@ std::optional<failure> why_not_of_set(const cell_coordinator_state& st,
                                       const std::string& task,
                                       const std::string& request);
 
+/// Why a task cannot be changed into this request by itself; null: it can. One
+/// of a set is what the set says, which would put it back.
+/// @param body `body_of` the request; empty: another one than it has.
+std::optional<failure> why_kept_by_set(const cell_coordinator_state& st,
+                                       const std::string& task,
+                                       const std::string& body);
+
 /// Does what is to be done, if it is time to look.
 void settle_due_sets(coordinator_pointer self);
 

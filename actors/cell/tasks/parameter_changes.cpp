@@ -1,6 +1,7 @@
 #include "actors/cell/tasks/parameter_changes.hpp"
 
 #include "actors/cell/limits.hpp"
+#include "actors/cell/sets/cell_sets.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/tasks/cell_tasks.hpp"
 #include "actors/cell/tasks/task_changes.hpp"
@@ -60,6 +61,8 @@ failure unfit(const deployment& x, const std::string& why,
 std::optional<failure> why_not_changed(const cell_coordinator_state& st,
                                        const deployment& x) {
   if (auto why = why_updating(st, x.spec.task))
+    return why;
+  if (auto why = why_kept_by_set(st, x.spec.task, ""))
     return why;
   if (auto why = why_unsettled(st, x.spec.task))
     return why;

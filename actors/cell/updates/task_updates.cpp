@@ -1,5 +1,6 @@
 #include "actors/cell/updates/task_updates.hpp"
 
+#include "actors/cell/sets/cell_sets.hpp"
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/tasks/cell_tasks.hpp"
 #include "actors/cell/tasks/placement_locks.hpp"
@@ -163,6 +164,8 @@ caf::result<task_update_plan> update_task(coordinator_pointer self,
   if (const auto* known = st.updates.find_plan(request.task, run->body))
     return *known;
   if (auto why = why_updating(st, request.task); why && !request.dry_run)
+    return to_error(*why);
+  if (auto why = why_kept_by_set(st, request.task, run->body))
     return to_error(*why);
   if (is_settled(entry->state) && !entry->ending)
     return plan_of_ended(st, *run, *entry);

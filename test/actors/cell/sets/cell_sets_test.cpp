@@ -402,6 +402,22 @@ TEST_CASE_METHOD(fleet,
   CHECK(error_of(request(stray)) == "conflict");
 }
 
+TEST_CASE_METHOD(fleet, "A task of a set is changed by the set alone",
+                 "[task_sets]") {
+  auto& r1 = robot("r1");
+  apply(patrol());
+  time.settle();
+  auto own = echo_task("patrol-r1", {echo_step("drive", 2)});
+  own["type"] = "task_update";
+  CHECK(error_of(request(own)) == "conflict");
+  CHECK(error_of(request({{"type", "parameter_change"},
+                          {"instance", instance_on(r1)},
+                          {"parameters", {{"times", 3}}}}))
+        == "conflict");
+  time.advance(1min);
+  CHECK(r1.deployments.size() == 1);
+}
+
 TEST_CASE_METHOD(fleet, "A set that is wanted new only does not change another",
                  "[task_sets]") {
   robot("r1");
