@@ -11,7 +11,7 @@ namespace {
 
 /// What an earlier run of the coordinator has known of a member says nothing of
 /// its labels.
-bool has_told_labels(const registry_entry& x) {
+bool has_reported_labels(const registry_entry& x) {
   return !x.row.resources.architecture.empty();
 }
 
@@ -26,7 +26,7 @@ nodes_for_sets(const cell_coordinator_state& st) {
     set_node x;
     x.labels = labels_of(row.resources);
     x.labels["node"] = row.identity.name;
-    x.is_unknown = !has_told_labels(*entry);
+    x.is_unknown = !has_reported_labels(*entry);
     x.is_away = is_away(st, row.identity.name);
     x.is_draining = is_draining(st, *entry);
     result[row.identity.name] = std::move(x);

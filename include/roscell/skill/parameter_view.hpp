@@ -20,7 +20,7 @@ public:
 
   /// As those of an input_handler.
   virtual void suspend() = 0;
-  virtual void resume(const changed_variables& told) = 0;
+  virtual void resume(const changed_variables& reported) = 0;
 };
 
 } // namespace roscell::engine

@@ -78,7 +78,7 @@ TEST_CASE_METHOD(fleet, "Each node of the kind gets a task of its own",
                  "[task_sets]") {
   auto& r1 = robot("r1");
   auto& r2 = robot("r2");
-  auto& desk = add("desk");
+  auto& other = add("desk");
   const auto plan = apply(patrol());
   CHECK(plan.at("outcome") == "begun");
   CHECK(plan.at("is_new") == true);
@@ -91,7 +91,7 @@ TEST_CASE_METHOD(fleet, "Each node of the kind gets a task of its own",
     CHECK(spec.environment.at("ON") == x->identity.name);
     CHECK(spec.input.front().endpoint == "/in/" + x->identity.name);
   }
-  CHECK(desk.running.empty());
+  CHECK(other.running.empty());
   CHECK(base.running.empty());
   CHECK(runs_on() == "2 of 2");
   CHECK(count("set_applied") == 1);
@@ -144,7 +144,7 @@ TEST_CASE_METHOD(fleet,
                  "where one gets it",
                  "[task_sets]") {
   auto& r1 = robot("r1");
-  auto& desk = add("desk");
+  auto& other = add("desk");
   apply(patrol());
   time.settle();
   REQUIRE(r1.running.size() == 1);
@@ -152,8 +152,8 @@ TEST_CASE_METHOD(fleet,
   CHECK(r1.running.empty());
   CHECK(runs_on() == "0 of 0");
   CHECK(tasks().empty());
-  relabel(desk, "robot");
-  CHECK(desk.running.size() == 1);
+  relabel(other, "robot");
+  CHECK(other.running.size() == 1);
   relabel(r1, "robot");
   CHECK(r1.running.size() == 1);
   CHECK(runs_on() == "2 of 2");
