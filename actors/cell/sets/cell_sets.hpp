@@ -18,6 +18,9 @@
 /// `cell_coordinator_actor`.
 namespace roscell {
 
+/// The store's table of them.
+constexpr const char* set_records = "task_sets";
+
 /// Takes up the sets that an earlier run of the coordinator has stored.
 void restore_sets(coordinator_pointer self);
 
