@@ -20,6 +20,7 @@ struct tuned_cell : paper_cell {
   static installed_skill tuned_skill() {
     auto result = echo_skill();
     result.hash.assign(64, 'c');
+    result.descriptor.operation = "tuner";
     result.descriptor.models[0].parameters = R"({
       "gain": {"type": "number", "default": 1, "minimum": 0, "maximum": 9,
                "changeable": true},
@@ -29,9 +30,15 @@ struct tuned_cell : paper_cell {
   }
 
   static json body() {
-    auto step = echo_step("s0", 1, "left");
-    step["parameters"] = {{"gain", 2}};
-    return echo_task("t", {step, echo_step("s1", 1, "left")});
+    auto first = tuner_step("s0");
+    first["parameters"] = {{"gain", 2}};
+    return echo_task("t", {first, tuner_step("s1")});
+  }
+
+  static json tuner_step(const std::string& id) {
+    auto result = echo_step(id, 1, "left");
+    result["operation"] = "tuner";
+    return result;
   }
 
   std::string instance_of(const std::string& step) const {
