@@ -96,7 +96,7 @@ int remove_secrets(const secret_options& options) {
   return exit_done;
 }
 
-void add_set_command(CLI::App& secrets, action& chosen) {
+void add_secret_setting(CLI::App& secrets, action& chosen) {
   auto options = std::make_shared<secret_options>();
   auto* command = secrets.add_subcommand(
       "set", "Keep a value on this host's node, for steps that name it.");
@@ -126,7 +126,7 @@ void add_set_command(CLI::App& secrets, action& chosen) {
   });
 }
 
-void add_list_command(CLI::App& secrets, action& chosen) {
+void add_secret_list(CLI::App& secrets, action& chosen) {
   auto options = std::make_shared<secret_options>();
   auto* command = secrets.add_subcommand(
       "list", "List a node's secrets, without their values.");
@@ -139,7 +139,7 @@ void add_list_command(CLI::App& secrets, action& chosen) {
   });
 }
 
-void add_remove_command(CLI::App& secrets, action& chosen) {
+void add_secret_removal(CLI::App& secrets, action& chosen) {
   auto options = std::make_shared<secret_options>();
   auto* command =
       secrets.add_subcommand("remove", "Have a node forget secrets.");
@@ -161,9 +161,9 @@ void add_secret_command(CLI::App& app, action& chosen) {
   auto* secrets = app.add_subcommand(
       "secret", "Secrets of a node: values for steps that nobody is told.");
   secrets->require_subcommand(1);
-  add_set_command(*secrets, chosen);
-  add_list_command(*secrets, chosen);
-  add_remove_command(*secrets, chosen);
+  add_secret_setting(*secrets, chosen);
+  add_secret_list(*secrets, chosen);
+  add_secret_removal(*secrets, chosen);
 }
 
 } // namespace roscell::cli
