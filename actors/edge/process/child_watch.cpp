@@ -19,7 +19,8 @@ using listener = std::function<void(const notification&)>;
 void hear(int socket, const listener& on_notification) {
   const auto notified = receive_notifications(socket);
   if (notified.ready || notified.alive || notified.stopping
-      || !notified.status.empty())
+      || !notified.status.empty() || notified.parameters_taken > 0
+      || notified.parameters_refused > 0)
     on_notification(notified);
 }
 

@@ -152,8 +152,9 @@ parameter_answers::parameter_answers(const std::string& declared,
 }
 
 void parameter_answers::set(const std::string& values) {
+  const auto given = object_in(values);
   values_ = json::object();
-  for (const auto& [name, value] : object_in(values).items())
+  for (const auto& [name, value] : given.items())
     if (type_of(value, declared_type(declared_, name))
         != type_word::PARAMETER_NOT_SET)
       values_[name] = value;
