@@ -200,9 +200,7 @@ cell_coordinator(coordinator_pointer self, const actor_context& context,
       [self](const topic_query& x) { return list_topics(self, x); },
       [self](const task_history_query& x) { return report_history(self, x); },
       [self](const task_query& x) { return describe_tasks(self->state, x); },
-      [self](const instance_query& x) {
-        return describe_instances_now(self, x);
-      },
+      [self](const instance_query& x) { return instances_now(self, x); },
       [self](const log_query& x) { return fetch_log(self, x); },
       [self](const kept_logs_query& x) { return collect_kept_logs(self, x); },
       [self](const skill_query& x) { return list_skills(self->state, x); },

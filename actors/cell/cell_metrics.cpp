@@ -68,8 +68,8 @@ std::set<std::string> nodes_to_ask(const cell_coordinator_state& st,
 
 } // namespace
 
-caf::result<instance_description>
-describe_instances_now(coordinator_pointer self, const instance_query& query) {
+caf::result<instance_description> instances_now(coordinator_pointer self,
+                                                const instance_query& query) {
   auto known = describe_instances(self->state, query);
   if (!known)
     return std::move(known.error());

@@ -34,8 +34,8 @@ caf::result<kept_logs> collect_kept_logs(coordinator_pointer self,
 /// that is away, or does not answer in time, metrics are left out. What comes
 /// after the asker has given up is kept for who asks next. Errors:
 /// unknown_task.
-caf::result<instance_description>
-describe_instances_now(coordinator_pointer self, const instance_query& query);
+caf::result<instance_description> instances_now(coordinator_pointer self,
+                                                const instance_query& query);
 
 /// The same for all instances; the answer says only that they are known now.
 caf::result<metrics_collected> collect_all_metrics(coordinator_pointer self);

@@ -35,8 +35,8 @@ struct given_values {
 /// rest stands for the value of `name`: a text that is nothing else becomes the
 /// value, a number stays a number; inside of a text it is written out. `$${`
 /// stands for `${`. `${node}` and `${copy}` stay where no variable has that
-/// name: a coordinator fills them in. A document without `variables` stays as it is. Values are
-/// not filled in themselves.
+/// name: a coordinator fills them in. A document without `variables` stays as
+/// it is. Values are not filled in themselves.
 ///
 /// Errors: schema_violation (an unknown or bad name, no value or one of another
 /// kind, a list within a text, too much), with its place in the document.

@@ -117,8 +117,10 @@ void check_exclusions(reason_list& to, const problem& asked, std::size_t step,
       add(to, reason_kind::excluded, one.reason);
 }
 
+/// On the wire, where earlier versions take no other word: so a secret has none
+/// of its own.
 const char* const names[] = {
-    "skill", "architecture", "label", "device",     "secret",      "gpu",
+    "skill", "architecture", "label", "device",     "excluded",    "gpu",
     "cpu",   "memory",       "disk",  "gpu_memory", "combination", "excluded"};
 
 } // namespace

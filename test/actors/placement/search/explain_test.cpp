@@ -52,7 +52,7 @@ TEST_CASE("a node without a secret of a step is none for it, and what sets it "
   asked.nodes[0].secrets = {"other", "pass"};
   auto why = only_reason(asked);
   CHECK(why.kind == reason_kind::secret);
-  CHECK(std::string{to_string(why.kind)} == "secret");
+  CHECK(std::string{to_string(why.kind)} == "excluded");
   CHECK(why.text
         == "needs the secret 'key', the node does not have it: `roscell secret "
            "set key` there");
