@@ -275,6 +275,7 @@ constexpr value_source sources[] = {
     {"--config", "files"},
     {"--to", "files"},
     {"--device", "files"},
+    {"--file", "files"},
     {"--data-dir", "dirs"},
     {"--skills", "dirs"},
     {"--man-pages", "dirs"},

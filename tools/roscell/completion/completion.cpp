@@ -211,11 +211,12 @@ const name_source* source_of(const std::string& kind) {
 /// "decimation=" for each that some skill takes while it runs.
 std::vector<std::string> changeable_in(const json& models) {
   std::vector<std::string> result;
-  for (const auto& model : models)
-    for (const auto& [name, x] :
-         model.value("parameters", json::object()).items())
+  for (const auto& model : models) {
+    const auto parameters = model.value("parameters", json::object());
+    for (const auto& [name, x] : parameters.items())
       if (x.is_object() && x.value("changeable", false))
         result.push_back(name + "=");
+  }
   return result;
 }
 
