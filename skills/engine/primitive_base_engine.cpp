@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
-#include <initializer_list>
 #include <utility>
 
 namespace roscell::engine {
@@ -35,14 +34,6 @@ std::vector<std::string> data_types_of(const std::vector<stream>& streams) {
     result.push_back(x.data_type);
   return result;
 }
-
-/// A node reads of no more, in either direction.
-constexpr std::size_t most_counted = 16;
-
-/// And no more bytes of a remark. What an author says has any length, and a
-/// datagram that is too long is not read at all.
-constexpr std::size_t most_remark_bytes = 256;
-constexpr std::size_t most_refusal_bytes = 512;
 
 } // namespace
 
@@ -109,56 +100,6 @@ exit_code primitive_base_engine::run() {
 void primitive_base_engine::request_stop() {
   stop_.set();
   queue_.discard();
-}
-
-std::string primitive_base_engine::status() const {
-  using namespace std::chrono;
-  std::uint64_t dropped = 0;
-  std::uint64_t failed = 0;
-  for (std::size_t i = 0; i < env_.inputs.size(); ++i)
-    if (work_.is_main(i)) {
-      dropped += queue_.dropped(i);
-      failed += work_.failed(i);
-    }
-  auto result = frame_text(work_.main_times(), dropped, failed);
-  if (const auto& ages = outputs_.ages(); ages.count() > 0) {
-    const auto median = duration_cast<microseconds>(ages.quantile(0.5));
-    result += " age_us=" + std::to_string(median.count());
-  }
-  return result;
-}
-
-std::string primitive_base_engine::frame_counts() const {
-  using namespace std::chrono;
-  std::string result;
-  const auto add = [&](const char* direction, std::size_t number,
-                       std::initializer_list<std::uint64_t> counts) {
-    result += (result.empty() ? "" : ";") + std::string{direction}
-              + std::to_string(number);
-    for (const auto count : counts)
-      result += " " + std::to_string(count);
-  };
-  for (std::size_t i = 0; i < std::min(env_.inputs.size(), most_counted); ++i) {
-    const auto& times = work_.times(i);
-    const auto median = duration_cast<microseconds>(times.quantile(0.5));
-    add("input:", i,
-        {meters_.total_in(i), times.count(), work_.failed(i), queue_.dropped(i),
-         static_cast<std::uint64_t>(median.count())});
-  }
-  for (std::size_t i = 0; i < std::min(env_.outputs.size(), most_counted); ++i)
-    add("output:", i, {meters_.total_out(i)});
-  return result;
-}
-
-std::string primitive_base_engine::reported_status() const {
-  auto result = "STATUS=" + status() + "\nROSCELL_FRAMES=" + frame_counts();
-  if (auto words = remark(); !words.empty()) {
-    words.resize(std::min(words.size(), most_remark_bytes));
-    // A datagram has one line for each thing.
-    std::replace(words.begin(), words.end(), '\n', ' ');
-    result += "\nROSCELL_REMARK=" + words;
-  }
-  return result;
 }
 
 void primitive_base_engine::make_parts() {
@@ -278,77 +219,6 @@ std::size_t primitive_base_engine::handle(const frame& input) {
 void primitive_base_engine::work_has_ended() {
   if (alive_.work_ends() && heartbeat_)
     heartbeat_->send_now();
-}
-
-void primitive_base_engine::want_safety() {
-  safety_wanted_ = true;
-  queue_.interpose([this] { between_frames(); });
-}
-
-void primitive_base_engine::use_variables(changed_variables reported) {
-  {
-    const std::lock_guard guard{reported_mutex_};
-    reported_ = std::move(reported);
-  }
-  queue_.interpose([this] { between_frames(); });
-}
-
-void primitive_base_engine::use_parameters(ordered_parameters wanted) {
-  {
-    const std::lock_guard guard{reported_mutex_};
-    wanted_ = std::move(wanted);
-  }
-  queue_.interpose([this] { between_frames(); });
-}
-
-/// One request does not push out the other.
-void primitive_base_engine::between_frames() {
-  if (safety_wanted_.exchange(false))
-    pass_on_request();
-  std::optional<changed_variables> reported;
-  std::optional<ordered_parameters> wanted;
-  {
-    const std::lock_guard guard{reported_mutex_};
-    reported.swap(reported_);
-    wanted.swap(wanted_);
-  }
-  if (wanted)
-    pass_on_parameters(*wanted);
-  if (reported)
-    move_to(*reported);
-}
-
-/// What the node waits for is said at once: from the next frame on they count.
-void primitive_base_engine::pass_on_parameters(
-    const ordered_parameters& wanted) {
-  const auto number = std::to_string(wanted.number);
-  alive_.work_begins(liveness::clock::now());
-  try {
-    const auto now = parameters::parse(wanted.values);
-    executor_->on_parameters(now);
-    if (view_)
-      view_->show(now);
-    socket_.send("ROSCELL_PARAMETERS_TAKEN=" + number);
-    say_("it works with these parameters: " + wanted.values);
-  } catch (...) {
-    auto why = current_error();
-    say_("it does not take other parameters: " + why);
-    why.resize(std::min(why.size(), most_refusal_bytes));
-    // A datagram has one line for each thing.
-    std::replace(why.begin(), why.end(), '\n', ' ');
-    socket_.send("ROSCELL_PARAMETERS_REFUSED=" + number + " " + why);
-  }
-  work_has_ended();
-}
-
-void primitive_base_engine::pass_on_request() {
-  alive_.work_begins(liveness::clock::now());
-  try {
-    executor_->on_safety_wanted();
-  } catch (...) {
-    say_("on_safety_wanted failed: " + current_error());
-  }
-  work_has_ended();
 }
 
 /// No thread uses an output meanwhile, and what an input still brings waits in

@@ -136,7 +136,7 @@ TEST_CASE("A node is no place for a step whose secrets it does not have",
   CHECK(why.code == error_code::no_feasible_allocation);
   CHECK(why.details.find("needs the secret 'pass', the node does not have it")
         != std::string::npos);
-  CHECK(why.details.find(R"("kind":"secret")") != std::string::npos);
+  CHECK(why.details.find(R"("kind":"excluded")") != std::string::npos);
 }
 
 TEST_CASE("A node is no place for what it does not grant to the skill",
