@@ -86,8 +86,8 @@ TEST_CASE("all of a command ends with its lifeline") {
   temp_folder folder;
   const auto file = folder / "pid";
   attached_run x{{"bash", "-c",
-                  "setsid sleep 1000 & echo $! > " + file + "; mv " + file + " "
-                      + file + "s; trap '' TERM HUP; wait"}};
+                  "setsid sleep 1000 & trap '' TERM HUP; echo $! > " + file
+                      + "; mv " + file + " " + file + "s; exec sleep 1000"}};
   REQUIRE(wait_in_folder(folder / "",
                          [&] { return std::filesystem::exists(file + "s"); }));
   const auto left = std::stoi(content_of(file + "s"));

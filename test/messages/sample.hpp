@@ -105,9 +105,9 @@ private:
   void fill(std::map<std::string, std::string>& x) {
     if (extent_ != extent::full)
       return;
-    // A secret has a name.
+    // A secret has a name, and its variable is none of "env".
     if (context_.second == "secret_env")
-      x = {{"key_1", "value_1"}};
+      x = {{"secret_1", "value_1"}};
     else
       x = {{"key_1", "value 1"}, {"key_2", ""}};
   }
