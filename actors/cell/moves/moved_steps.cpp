@@ -189,9 +189,11 @@ void forget_new(coordinator_pointer self, const std::string& task,
   change_task(self, task, std::move(change));
 }
 
-/// It has come to nothing: it is placed once more, elsewhere if need be, once
-/// it has surely ended there.
-void abandon_again(coordinator_pointer self, const moved_step& x) {
+/// It has come to nothing: it is placed once more, elsewhere if need be and if
+/// it may, once it has surely ended there.
+/// @param before what it was to take the place of.
+void abandon_again(coordinator_pointer self, const moved_step& x,
+                   const abandoned_step& before) {
   const auto& node = x.change.place.node;
   const auto* entry = self->state.registry.find_name(node);
   abandoned_step again;
@@ -200,7 +202,9 @@ void abandon_again(coordinator_pointer self, const moved_step& x) {
   again.instance = x.change.spec.instance;
   again.node = node;
   again.uuid = entry ? entry->row.identity.uuid : std::string{};
-  again.due = self->clock().now() + limits::retry::longest;
+  again.stays = before.stays;
+  again.pause = before.pause;
+  again.due = self->clock().now() + again.pause.next();
   self->state.failures.abandon(std::move(again));
   set_timer(self);
 }
@@ -284,13 +288,15 @@ void complete_lost(coordinator_pointer self, const move_ptr& move) {
   auto& st = self->state;
   for (size_t i = 0; i < move->steps.size(); ++i) {
     const auto& x = move->steps[i];
+    const auto* lost = st.failures.find_abandoned(x.change.old_instance);
+    const auto before = lost ? *lost : abandoned_step{};
     st.failures.forget(x.change.old_instance);
     if (st.moves.is_at(move->id, i, move_stage::up)) {
       st.deployments.heed_end(x.change.spec.instance);
       publish_moved(self, x);
     } else if (st.tasks.is_running(x.task)
                && st.deployments.find(x.change.spec.instance)) {
-      abandon_again(self, x);
+      abandon_again(self, x, before);
     }
   }
   for (const auto& x : move->steps)

@@ -130,7 +130,7 @@ test_a_node_killed_during_a_change_runs_what_it_ran() {
   labels_of_one="labels: {place: arm},"
   run_chain 1 2
   line_comes first "2 1"
-  settling_s=20 begin_change 1 b
+  settling_s=6 begin_change 1 b
   stop_node arm KILL
   await head '.event == "task_update_reverted"' > /dev/null
   start_node arm --join "$(discovery_of head)" --interface lo --cpu-floor 1 \
