@@ -3,11 +3,13 @@
 
 One table there says for each rule what holds it, as `test/FOLDER/FILE`: "name of
 a test". It must speak of every section, and of every row of a table of failures.
+And that each deliberate fault, test/faults/*.patch, can still be built in.
 Usage: tools/check_rules.py
 """
 
 import pathlib
 import re
+import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -80,13 +82,24 @@ def section(text, title):
     return re.split(r"^## ", text.split(f"## {title}\n")[1], maxsplit=1, flags=re.MULTILINE)[0]
 
 
+def outdated_faults():
+    """Patches that do not apply to the sources as they are."""
+    for path in sorted((ROOT / "test" / "faults").glob("*.patch")):
+        check = subprocess.run(["git", "apply", "--check", path], cwd=ROOT,
+                               capture_output=True, check=False)
+        if check.returncode != 0:
+            yield f"{path.relative_to(ROOT)} does not apply any more"
+
+
 def main():
     text = PAGE.read_text()
-    problems = list(missing(text)) + list(unheld(text))
+    problems = [f"{PAGE.relative_to(ROOT)}: {x}"
+                for x in list(missing(text)) + list(unheld(text))]
+    problems += outdated_faults()
     for problem in problems:
-        print(f"rules: {PAGE.relative_to(ROOT)}: {problem}")
+        print(f"rules: {problem}")
     if not problems:
-        print("rules: each names a test that is there")
+        print("rules: each names a test that is there, and each fault can be tried")
     return 1 if problems else 0
 
 
