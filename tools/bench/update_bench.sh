@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # What a change of a running task costs: of eight steps of echo one is changed, again
 # and again. The gap in its output is that of ending and starting it, and what the
-# coordinator takes in between. One JSON line a figure; ends with 1 if a bound is
+# coordinator takes in between; and what a parameter costs that changes while its step
+# runs. One JSON line a figure; ends with 1 if a bound is
 # broken. Usage: tools/bench/update_bench.sh BUILD_DIR [CHANGES]
 set -uo pipefail
 cd "$(dirname "$0")/../.."
@@ -74,4 +75,12 @@ figure "apply of what does not differ" "$apply_ms" ms
   || { echo "update_bench: apply takes too long" >&2; broken=1; }
 [[ $(stat -c %Y%s "$scratch"/head/*.db* 2> /dev/null | md5sum) == "$written" ]] \
   || { echo "update_bench: apply of what does not differ has written" >&2; broken=1; }
+
+set_ms=$(for ((n = 0; n < 9; ++n)); do
+  begin=$(now_ms)
+  "$ROSCELL" set --to "$scratch/head/node.sock" eight/s0 "prefix=$n" > "$scratch/set" \
+    2>&1 || fail "set: $(cat "$scratch/set")"
+  echo $(($(now_ms) - begin))
+done | median)
+figure "set of a parameter of a running step" "$set_ms" ms
 exit "$broken"
