@@ -176,7 +176,7 @@ using membership_actor = introspected_actor::extend<
     // the coordinator.
     caf::replies_to<image_request>::with<image_offered>,
     // What the coordinator asks the node goes there.
-    caf::reacts_to<serve_members>, caf::reacts_to<coordinator_found>,
+    caf::reacts_to<use_router>, caf::reacts_to<coordinator_found>,
     caf::reacts_to<presence_seen>, caf::reacts_to<presence_gone>,
     caf::reacts_to<instance_changed>, caf::reacts_to<skills_changed>,
     caf::reacts_to<frame_received>, caf::reacts_to<heartbeat_received>,
@@ -334,7 +334,7 @@ using cell_coordinator_actor = introspected_actor::extend<
     caf::replies_to<transfer_query>::with<transfer_description>,
     // From a member, whose user has asked it.
     caf::replies_to<route_request>::with<request_routed>,
-    caf::reacts_to<serve_members>,
+    caf::reacts_to<use_router>,
     // Has a member answer. Errors: unknown_node, unreachable, timeout, and
     // those of the member.
     caf::replies_to<relay_request>::with<request_routed>,

@@ -258,7 +258,7 @@ struct claim_task;
 struct task_claimed;
 struct route_request;
 struct request_routed;
-struct serve_members;
+struct use_router;
 struct relay_request;
 struct reach_opening;
 struct reach_opened;

@@ -158,6 +158,8 @@ using container_supervisor_actor = introspected_actor::extend<
     caf::reacts_to<use_environment>, caf::reacts_to<contact_proven>,
     caf::reacts_to<contact_lost>, caf::reacts_to<container_exited>,
     caf::reacts_to<instance_notified>, caf::reacts_to<runtime_problem_changed>,
+    // Who carries out what a program wishes.
+    caf::reacts_to<use_router>,
     // INTERNAL: from a skill instance.
     caf::reacts_to<instance_changed>>;
 

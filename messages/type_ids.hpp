@@ -263,7 +263,7 @@
   X(task_claimed)                                                              \
   X(route_request)                                                             \
   X(request_routed)                                                            \
-  X(serve_members)                                                             \
+  X(use_router)                                                                \
   X(relay_request)                                                             \
   X(reach_opening)                                                             \
   X(reach_opened)                                                              \

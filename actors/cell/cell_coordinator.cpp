@@ -239,7 +239,7 @@ cell_coordinator(coordinator_pointer self, const actor_context& context,
       [self](const cell_rebalance& x) { return rebalance_cell(self, x); },
       [self](const transfer_query& x) { return describe_transfers(self, x); },
       [self](const route_request& x) { return answer_member(self, x); },
-      [self](const serve_members& x) { serve(self, x.router); },
+      [self](const use_router& x) { serve(self, x.router); },
       [self](const relay_request& x) { return relay_to_member(self, x); },
       [self](caf::tick_atom, uint64_t number) { on_tick(self, number); },
   };

@@ -184,6 +184,8 @@ void on_notified(container_supervisor_self self,
     hear_status(self, *x, event);
   if (event.safe != safe_word::untold)
     x->row.safe = event.safe;
+  if (event.parameters_wanted > 0)
+    ask_for_parameters(self, x->row, event);
   self->send(x->actor, event);
 }
 
@@ -252,6 +254,7 @@ container_supervisor(container_supervisor_self self,
       [self](const runtime_problem_changed& x) {
         on_runtime_problem(self, x.message);
       },
+      [self](const use_router& x) { self->state.router = x.router; },
       [self](const instance_changed& x) { on_changed(self, x.instance); },
   };
 }

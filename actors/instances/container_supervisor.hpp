@@ -49,6 +49,7 @@ struct container_supervisor_config {
   environment_writer
       write_environment_update;      ///< Empty: no instance can be told.
   parameter_writer write_parameters; ///< The same.
+  request_answerer answer_request;   ///< The same.
   shared_skill_grants grants;        ///< Null: nothing is granted to any skill.
   secret_keeper_actor secrets;       ///< Invalid: this node keeps none.
 };
@@ -92,8 +93,10 @@ struct container_supervisor_state {
   int runtime_deaths = 0;
   std::string problem; ///< Of the engine under the runtime; empty: none.
   instance_listener_actor listener;
-  bool out_of_contact = true;  ///< And the next word tells what is wanted.
-  int64_t contact_boot_ms = 0; ///< Of the last word that reached the cell.
+  request_router_actor router;      ///< Of this node; invalid while it starts.
+  std::set<std::string> requesting; ///< Instances that wait for the cell.
+  bool out_of_contact = true;       ///< And the next word tells what is wanted.
+  int64_t contact_boot_ms = 0;      ///< Of the last word that reached the cell.
   /// What this node says of the cell to instances that it starts.
   std::map<std::string, std::string> environment;
   bool knows_place = true; ///< It has been said.

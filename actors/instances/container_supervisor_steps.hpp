@@ -44,6 +44,12 @@ caf::result<instances_removed>
 remove_instances(container_supervisor_pointer self,
                  const instance_removal& request);
 
+/// What the program of an instance asks for itself, as long as its cell lets
+/// it, is asked of the cell as a user would. It hears what has become of it.
+void ask_for_parameters(container_supervisor_pointer self,
+                        const instance_row& row,
+                        const instance_notified& asked);
+
 // The actors of instances and the runtime, from their start over their deaths
 // to their successors.
 

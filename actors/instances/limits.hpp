@@ -59,6 +59,10 @@ constexpr seconds parameter_answer{5};
 /// and for whoever asks its instance to have it do so.
 constexpr seconds parameters{6};
 
+/// For the cell to carry out what a program asks for itself, on whichever
+/// node its coordinator is.
+constexpr seconds parameter_request{20};
+
 /// An alarm that comes later than this tells of a pause of our own process.
 constexpr seconds pause_tolerance{2};
 

@@ -44,7 +44,8 @@ static_assert(instance::force < instance::stop);
 static_assert(instance::parameter_answer < instance::parameters
               && instance::parameters < session::parameters - session::margin
               && session::parameters < task::agent_parameters
-              && task::agent_parameters < task::parameters);
+              && task::agent_parameters < task::parameters
+              && task::parameters < instance::parameter_request);
 
 static_assert(build::more < build::more_call
               && build::piece_call < build::fetch);

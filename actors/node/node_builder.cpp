@@ -157,6 +157,7 @@ void node_builder::start_supervision() {
   supervision.write_environment_update =
       make_environment_writer(config, runtime_);
   supervision.write_parameters = make_parameter_writer(config, runtime_);
+  supervision.answer_request = make_request_answerer(config, runtime_);
   supervision.store = store_;
   supervision.history = history_;
   supervision.graph = start(graph_watch, parts_.edges->graph);
@@ -212,6 +213,7 @@ void node_builder::start_coordination() {
   setup.sets = data_.sets;
   setup.server_id = parts_.edges->server_id;
   setup.rebalance = config.rebalance;
+  setup.ros2_set_parameters = config.ros2_set_parameters;
   setup.ros_domain_id = config.ros_domain_id;
   setup.environment = parts_.edges->environment;
   setup.searches = std::make_shared<search_guard>();
@@ -374,10 +376,11 @@ void node_builder::start_requests() {
       make_registry(parts_.config.coordinator));
   parts_.router = start(request_router, registry,
                         std::shared_ptr<const node_services>(parts_.services));
+  caf::anon_send(parts_.services->supervisor, use_router{parts_.router});
   if (const auto& coordinator = parts_.services->coordinator)
-    caf::anon_send(coordinator, serve_members{parts_.router});
+    caf::anon_send(coordinator, use_router{parts_.router});
   if (const auto& membership = parts_.services->membership)
-    caf::anon_send(membership, serve_members{parts_.router});
+    caf::anon_send(membership, use_router{parts_.router});
   parts_.services->node = spawn(system_, parts_.context, node, parts_);
   parts_.edges->handler->set(make_rest_handler(
       system_, {parts_.context, parts_.router, parts_.services, pages()}));

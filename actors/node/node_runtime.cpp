@@ -175,6 +175,16 @@ parameter_writer make_parameter_writer(const node_config& config,
   };
 }
 
+request_answerer make_request_answerer(const node_config& config,
+                                       const chosen_runtime& chosen) {
+  return [find = socket_finder(config, chosen)](const std::string& instance,
+                                                int64_t number,
+                                                const std::string& problem) {
+    return write_request_answer(parameter_file_of(find(instance)), number,
+                                problem);
+  };
+}
+
 exec_opener make_exec_opener(const node_config& config,
                              const chosen_runtime& chosen,
                              const io_thread& io) {

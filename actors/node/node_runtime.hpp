@@ -61,6 +61,10 @@ environment_writer make_environment_writer(const node_config& config,
 parameter_writer make_parameter_writer(const node_config& config,
                                        const chosen_runtime& chosen);
 
+/// Of that, what tells a program what has become of a request.
+request_answerer make_request_answerer(const node_config& config,
+                                       const chosen_runtime& chosen);
+
 /// Begins commands beside the instances of that runtime.
 exec_opener make_exec_opener(const node_config& config,
                              const chosen_runtime& chosen, const io_thread& io);

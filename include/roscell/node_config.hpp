@@ -30,6 +30,9 @@ struct node_config {
   std::vector<std::string> peers; ///< "HOST[:PORT]", besides multicast.
   bool rebalance = true; ///< The cell may be balanced. Coordinators only.
   bool force = false;    ///< Take a cell name that is in use.
+  /// Clients of ROS 2 may change parameters of skills of the cell while these
+  /// run; by DDS nobody proves who he is. Coordinators only.
+  bool ros2_set_parameters = false;
   /// auto, process, docker[:SOCKET] or podman[:SOCKET].
   std::string runtime = "auto";
   std::filesystem::path data_dir;

@@ -46,13 +46,14 @@ struct relay_request {
   }
 };
 
-/// Who answers what comes over a session: to the COORDINATOR, what its members
-/// ask on behalf of their users; to the MEMBERSHIP, what its coordinator asks.
-struct serve_members {
+/// Who answers requests that do not come in at an edge: to the COORDINATOR,
+/// what its members ask on behalf of their users; to the MEMBERSHIP, what its
+/// coordinator asks; to the CONTAINER SUPERVISOR, what programs wish.
+struct use_router {
   request_router_actor router;
 
   static constexpr auto fields() {
-    return field_list{required("router", &serve_members::router)};
+    return field_list{required("router", &use_router::router)};
   }
 };
 

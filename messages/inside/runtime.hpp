@@ -263,7 +263,9 @@ struct instance_notified {
   /// ROSCELL_PARAMETERS_REFUSED=..., the number of a change, and why.
   int64_t parameters_refused = 0;
   std::string refusal;
-  std::string wanted_parameters; ///< ROSCELL_PARAMETERS_WANTED=..., JSON.
+  /// ROSCELL_PARAMETERS_WANTED=..., the number of a wish, and a JSON object.
+  int64_t parameters_wanted = 0;
+  std::string wanted_parameters;
 
   static constexpr auto fields() {
     return field_list{
@@ -280,6 +282,7 @@ struct instance_notified {
         required("parameters_taken", &instance_notified::parameters_taken),
         required("parameters_refused", &instance_notified::parameters_refused),
         required("refusal", &instance_notified::refusal),
+        required("parameters_wanted", &instance_notified::parameters_wanted),
         required("wanted_parameters", &instance_notified::wanted_parameters)};
   }
 };

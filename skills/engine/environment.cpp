@@ -111,6 +111,8 @@ environment read_environment(const variable_lookup& lookup) {
   if (auto text = optional_text(lookup, "ROSCELL_PARAMETERS"); !text.empty())
     result.parameters = read_parameters(text);
   result.changeable = optional_text(lookup, "ROSCELL_CHANGEABLE");
+  result.ros2_set_parameters =
+      optional_text(lookup, "ROSCELL_ROS2_SET_PARAMETERS") == "1";
   if (auto gpu = read_number(lookup, "ROSCELL_GPU", 0, 1023))
     result.gpu = static_cast<unsigned>(*gpu);
   result.notify_socket = optional_text(lookup, "NOTIFY_SOCKET");

@@ -120,7 +120,10 @@ void primitive_base_engine::open_parts() {
   outputs_.open();
   for (auto& input : inputs_)
     input->handler->open();
-  view_ = parts_.make_parameter_view(env_, say_);
+  view_ = parts_.make_parameter_view(env_, say_,
+                                     [this](const std::string& changes) {
+                                       return request_parameters(changes);
+                                     });
   if (view_)
     view_->open(env_.parameters);
 }
@@ -135,10 +138,8 @@ bool primitive_base_engine::survives_new_address() const {
 /// A node starts a skill again that does not hear of another address.
 void primitive_base_engine::listen_to_node() {
   std::vector<heard_lines> heard{
-      {env_.notify_socket + ".parameters", [this](const std::string& line) {
-         if (auto wanted = read_parameter_line(line); wanted.number > 0)
-           use_parameters(std::move(wanted));
-       }}};
+      {env_.notify_socket + ".parameters",
+       [this](const std::string& line) { hear_parameters(line); }}};
   if (survives_new_address())
     heard.push_back(
         {env_.notify_socket + ".environment", [this](const std::string& line) {

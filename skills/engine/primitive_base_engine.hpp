@@ -97,6 +97,8 @@ private:
   bool gives_up(std::size_t input) const;
   std::string reported_status() const;
   void between_frames();
+  std::int64_t request_parameters(const std::string& changes);
+  void hear_parameters(const std::string& line);
   void pass_on_request();
   void pass_on_parameters(const ordered_parameters& wanted);
   void move_to(const changed_variables& reported);
@@ -119,6 +121,7 @@ private:
   output_ports outputs_{meters_};
   bool useless_ = false; ///< What an input brings can never be used.
   std::unique_ptr<parameter_view> view_; ///< Null: nobody sees parameters.
+  std::atomic<std::int64_t> last_request_{0};
   std::optional<heartbeat> heartbeat_;
   std::atomic<std::size_t> open_inputs_{0};
   std::atomic<bool> stream_failed_{false};

@@ -1,6 +1,7 @@
 #include "skills/engine/primitive_base_engine.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 /// What a node asks of an engine that runs: it is done between two frames.
@@ -10,6 +11,9 @@ namespace {
 
 /// A node reads no more of a reason.
 constexpr std::size_t most_refusal_bytes = 512;
+
+/// With its name and number it has to be a datagram that a node reads.
+constexpr std::size_t most_request_bytes = 3500;
 
 } // namespace
 
@@ -32,6 +36,32 @@ void primitive_base_engine::use_parameters(ordered_parameters wanted) {
     wanted_ = std::move(wanted);
   }
   queue_.interpose([this] { between_frames(); });
+}
+
+void primitive_base_engine::hear_parameters(const std::string& line) {
+  if (auto wanted = read_parameter_line(line); wanted.number > 0)
+    use_parameters(std::move(wanted));
+  else if (const auto answer = read_answer_line(line);
+           answer.number > 0 && view_)
+    view_->on_answer(answer.number, answer.problem);
+}
+
+/// Above all numbers that an earlier program of this instance has used, whose
+/// answers may still come.
+std::int64_t
+primitive_base_engine::request_parameters(const std::string& changes) {
+  using namespace std::chrono;
+  if (!socket_.enabled() || changes.size() > most_request_bytes)
+    return 0;
+  const std::int64_t now =
+      duration_cast<milliseconds>(system_clock::now().time_since_epoch())
+          .count();
+  auto last = last_request_.load();
+  auto number = std::max(last + 1, now);
+  while (!last_request_.compare_exchange_weak(last, number))
+    number = std::max(last + 1, now);
+  const auto text = std::to_string(number) + " " + changes;
+  return socket_.send("ROSCELL_PARAMETERS_WANTED=" + text) == 0 ? number : 0;
 }
 
 /// One request does not push out the other.

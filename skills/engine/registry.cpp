@@ -54,8 +54,8 @@ void registry::set_parameter_view(const std::string& protocol,
 }
 
 std::unique_ptr<parameter_view>
-registry::make_parameter_view(const environment& env,
-                              const say_function& say) const {
+registry::make_parameter_view(const environment& env, const say_function& say,
+                              const request_function& request) const {
   const auto uses_it = [this](const stream& x) {
     return x.protocol == view_protocol_;
   };
@@ -63,7 +63,7 @@ registry::make_parameter_view(const environment& env,
       || (std::none_of(env.inputs.begin(), env.inputs.end(), uses_it)
           && std::none_of(env.outputs.begin(), env.outputs.end(), uses_it)))
     return nullptr;
-  return make_view_(env, say);
+  return make_view_(env, say, request);
 }
 
 std::unique_ptr<executor>

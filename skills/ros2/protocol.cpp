@@ -23,10 +23,12 @@ void add_ros2_protocol(engine::registry& target,
   target.add_input("ros2", [shared](const engine::stream_context& input) {
     return std::make_unique<topic_input>(input, shared);
   });
-  target.set_parameter_view("ros2", [shared](const engine::environment& env,
-                                             const engine::say_function& say) {
-    return std::make_unique<parameter_server>(env, shared, say);
-  });
+  target.set_parameter_view(
+      "ros2",
+      [shared](const engine::environment& env, const engine::say_function& say,
+               const engine::request_function& request) {
+        return std::make_unique<parameter_server>(env, shared, say, request);
+      });
   target.add_output("ros2", [shared](const engine::stream_context& output) {
     return std::make_unique<topic_output>(output, shared);
   });

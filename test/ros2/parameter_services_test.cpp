@@ -1,4 +1,5 @@
 #include "cell_fixture.hpp"
+#include "service_client.hpp"
 
 #include "roscell/ros2/cdr.hpp"
 #include "roscell/ros2/rcl_interfaces.hpp"
@@ -6,8 +7,8 @@
 
 #include <catch2/catch.hpp>
 
-#include <fastdds/dds/subscriber/SampleInfo.hpp>
-#include <fastdds/rtps/common/WriteParams.h>
+#include <cmath>
+#include <future>
 
 using namespace roscell;
 using namespace roscell::test;
@@ -37,109 +38,62 @@ Reply ask(const ros2::parameter_answers& whom,
   return ros2::deserialize<Reply>((whom.*how)(ros2::serialize(request)));
 }
 
-/// A client as rmw_fastrtps makes one: the request names the reader.
-class service_client : private ros2::dds::DataReaderListener,
-                       private ros2::dds::DataWriterListener {
-public:
-  service_client(const cell& home, const std::string& node,
-                 const std::string& service, const std::string& type)
-      : shared_(lookup_in(home.environment("client"))),
-        participant_(shared_.get(engine::parameters{})) {
-    const auto dds_type = "rcl_interfaces::srv::dds_::" + type;
-    replies_ =
-        participant_->add_named_reader("rr/" + node + "/" + service + "Reply",
-                                       dds_type + "_Response_", {}, this);
-    requests_ =
-        participant_->add_named_writer("rq/" + node + "/" + service + "Request",
-                                       dds_type + "_Request_", {}, this);
-  }
-
-  ~service_client() override {
-    participant_->remove(requests_);
-    participant_->remove(replies_);
-  }
-
-  /// The reply that names the request; empty: none has come.
-  std::string call(std::string request,
-                   std::chrono::milliseconds limit = patience) {
-    std::unique_lock guard{mutex_};
-    if (!changed_.wait_for(guard, patience,
-                           [this] { return writers_ > 0 && readers_ > 0; }))
-      return {};
-    eprosima::fastrtps::rtps::WriteParams sent;
-    sent.related_sample_identity().writer_guid(replies_->guid());
-    guard.unlock();
-    requests_->write(&request, sent);
-    guard.lock();
-    const auto number = sent.sample_identity().sequence_number();
-    if (!changed_.wait_for(guard, limit, [&] {
-          return answer_to_ == number && !answer_.empty();
-        }))
-      return {};
-    return answer_;
-  }
-
-private:
-  void on_data_available(ros2::dds::DataReader* reader) override {
-    std::string payload;
-    ros2::dds::SampleInfo info;
-    const std::lock_guard guard{mutex_};
-    while (reader->take_next_sample(&payload, &info)
-           == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
-      const auto& to = info.related_sample_identity;
-      if (!info.valid_data || to.writer_guid() != replies_->guid())
-        continue;
-      answer_ = payload;
-      answer_to_ = to.sequence_number();
-    }
-    changed_.notify_all();
-  }
-
-  void on_subscription_matched(
-      ros2::dds::DataReader*,
-      const ros2::dds::SubscriptionMatchedStatus& status) override {
-    const std::lock_guard guard{mutex_};
-    writers_ = status.current_count;
-    changed_.notify_all();
-  }
-
-  void on_publication_matched(
-      ros2::dds::DataWriter*,
-      const ros2::dds::PublicationMatchedStatus& status) override {
-    const std::lock_guard guard{mutex_};
-    readers_ = status.current_count;
-    changed_.notify_all();
-  }
-
-  ros2::shared_participant shared_;
-  std::shared_ptr<ros2::participant> participant_;
-  ros2::dds::DataReader* replies_ = nullptr;
-  ros2::dds::DataWriter* requests_ = nullptr;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  int writers_ = 0;
-  int readers_ = 0;
-  std::string answer_;
-  eprosima::fastrtps::rtps::SequenceNumber_t answer_to_;
-};
-
 /// The parameters of a skill "teller" in a cell.
 struct shown_skill {
-  explicit shown_skill(const cell& home)
+  explicit shown_skill(const cell& home, bool may_be_set = false)
       : shared(std::make_shared<ros2::shared_participant>(
           lookup_in(home.environment("teller")))) {
     env.instance = "teller";
     env.changeable = declared;
     env.parameters = engine::parameters::parse(shown_values);
-    server.emplace(env, shared, log.say());
+    env.ros2_set_parameters = may_be_set;
+    server.emplace(env, shared, log.say(), [this](const std::string& changes) {
+      log.say()("asked: " + changes);
+      return request_number;
+    });
     server->open(env.parameters);
   }
 
   engine::environment env;
   std::shared_ptr<ros2::shared_participant> shared;
   logbook log;
+  std::int64_t request_number = 7; ///< Of the next one; 0: none can be made.
   std::optional<ros2::parameter_server> server;
 };
+
+parameter_value number_value(double x) {
+  parameter_value result;
+  result.type = parameter_type::PARAMETER_DOUBLE;
+  result.double_value = x;
+  return result;
+}
+
+parameter_value text_value(const std::string& x) {
+  parameter_value result;
+  result.type = parameter_type::PARAMETER_STRING;
+  result.string_value = x;
+  return result;
+}
+
+std::string request_of(std::vector<parameter> wanted) {
+  return ros2::serialize(set_parameters_request{std::move(wanted)});
+}
+
+/// What became of each parameter; a reason, or "" where it was set.
+std::vector<std::string> reasons_in(const std::string& reply) {
+  std::vector<std::string> result;
+  for (const auto& x :
+       ros2::deserialize<set_parameters_response>(reply).results) {
+    CHECK(x.successful == x.reason.empty());
+    result.push_back(x.reason);
+  }
+  return result;
+}
+
+std::string reason_of_all(const std::string& reply) {
+  return ros2::deserialize<set_parameters_atomically_response>(reply)
+      .result.reason;
+}
 
 double gain_in(const std::string& reply) {
   if (reply.empty())
@@ -235,7 +189,8 @@ TEST_CASE("a client of ROS 2 gets parameters, and what they are later") {
   use_sockets();
   cell home{0};
   shown_skill shown{home};
-  service_client client{home, "teller", "get_parameters", "GetParameters"};
+  service_client client{lookup_in(home.environment("client")), "teller",
+                        "get_parameters", "GetParameters"};
   const auto request = ros2::serialize(names_request{{"gain"}});
   CHECK(gain_in(client.call(request)) == 2);
   shown.server->show(engine::parameters::parse(R"({"gain": 5})"));
@@ -256,6 +211,123 @@ TEST_CASE("parameters are shown at another address, too") {
   shown_skill shown{home};
   shown.server->suspend();
   shown.server->resume(other.environment("teller"));
-  service_client client{other, "teller", "get_parameters", "GetParameters"};
+  service_client client{lookup_in(other.environment("client")), "teller",
+                        "get_parameters", "GetParameters"};
   CHECK(gain_in(client.call(ros2::serialize(names_request{{"gain"}}))) == 2);
+}
+
+TEST_CASE("of parameters that a client sets those that can be are one change") {
+  const auto answers = known_answers();
+  const auto some = request_of({{"gain", number_value(3.5)},
+                                {"size", number_value(5)},
+                                {"word", text_value("b")},
+                                {"none", text_value("x")},
+                                {"gain", {}}});
+  const auto asked = answers.read_request(some, false);
+  CHECK(asked.changes() == R"({"gain":3.5,"word":"b"})");
+  CHECK(reasons_in(asked.reply(""))
+        == std::vector<std::string>{"",
+                                    "it cannot be changed while the skill runs",
+                                    "", "there is no such parameter",
+                                    "a value of this type cannot be set"});
+  CHECK(reasons_in(asked.reply("too loud"))[0] == "too loud");
+  // All or none of them.
+  const auto none = answers.read_request(some, true);
+  CHECK(none.changes().empty());
+  CHECK(reason_of_all(none.reply(""))
+        == "it cannot be changed while the skill runs");
+  const auto all =
+      answers.read_request(request_of({{"gain", number_value(3)}}), true);
+  CHECK(all.changes() == R"({"gain":3.0})");
+  CHECK(reason_of_all(all.reply("too loud")) == "too loud");
+}
+
+TEST_CASE("what JSON has no form of is no value that a client can set") {
+  const auto answers = known_answers();
+  for (const auto& x : {number_value(std::nan("")), number_value(HUGE_VAL),
+                        text_value("\xff"), text_value("\xc3")}) {
+    const auto asked = answers.read_request(request_of({{"gain", x}}), false);
+    CHECK(asked.changes().empty());
+    CHECK(reasons_in(asked.reply(""))[0]
+          == "a value of this type cannot be set");
+  }
+  CHECK(answers.read_request(request_of({}), false).changes().empty());
+  CHECK_THROWS_AS(answers.read_request("nonsense", false), ros2::cdr_error);
+  const std::vector<parameter> many(5000, {"gain", number_value(1)});
+  CHECK(
+      reasons_in(answers.read_request(request_of(many), false).reply("")).size()
+      == ros2::parameter_answers::most_names);
+}
+
+TEST_CASE("a client that sets parameters hears what the cell has said") {
+  use_sockets();
+  cell home{0};
+  shown_skill shown{home, true};
+  service_client client{lookup_in(home.environment("client")), "teller",
+                        "set_parameters", "SetParameters"};
+  std::ptrdiff_t times = 0;
+  const auto set = [&](const std::string& answer) {
+    auto reply = std::async(std::launch::async, [&] {
+      return client.call(request_of({{"gain", number_value(3)}}));
+    });
+    CHECK(shown.log.wait_for(R"(asked: {"gain":3.0})", ++times));
+    // That of another request is none.
+    shown.server->on_answer(6, "late");
+    shown.server->on_answer(7, answer);
+    return reasons_in(reply.get())[0];
+  };
+  CHECK(set("").empty());
+  CHECK(set("too loud") == "too loud");
+}
+
+TEST_CASE("while the cell is asked others are answered, and none asks more") {
+  use_sockets();
+  cell home{0};
+  shown_skill shown{home, true};
+  const auto place = lookup_in(home.environment("client"));
+  service_client one{place, "teller", "set_parameters", "SetParameters"};
+  service_client other{place, "teller", "set_parameters", "SetParameters"};
+  service_client reader{place, "teller", "get_parameters", "GetParameters"};
+  auto first = std::async(std::launch::async, [&] {
+    return one.call(request_of({{"gain", number_value(3)}}));
+  });
+  CHECK(shown.log.wait_for("asked: "));
+  CHECK(gain_in(reader.call(ros2::serialize(names_request{{"gain"}}))) == 2);
+  CHECK(reasons_in(other.call(request_of({{"gain", number_value(4)}})))[0]
+        == "another change is under way");
+  CHECK(shown.log.lines().size() == 1);
+  shown.server->on_answer(7, "");
+  CHECK(reasons_in(first.get())[0].empty());
+  // Where there is nobody to be asked that is said.
+  shown.request_number = 0;
+  CHECK_THAT(reasons_in(other.call(request_of({{"gain", number_value(4)}})))[0],
+             Catch::Matchers::Contains("nobody is there to be asked"));
+}
+
+TEST_CASE("a skill at another address asks the cell again") {
+  use_sockets();
+  cell home{0};
+  cell away{1};
+  shown_skill shown{home, true};
+  {
+    service_client client{lookup_in(home.environment("client")), "teller",
+                          "set_parameters", "SetParameters"};
+    // Nobody answers this one: its client is in the former cell.
+    auto lost = std::async(std::launch::async, [&] {
+      return client.call(request_of({{"gain", number_value(3)}}),
+                         std::chrono::milliseconds{500});
+    });
+    CHECK(shown.log.wait_for("asked: "));
+    shown.server->suspend();
+    CHECK(lost.get().empty());
+  }
+  shown.server->resume(away.environment("teller"));
+  service_client client{lookup_in(away.environment("client")), "teller",
+                        "set_parameters", "SetParameters"};
+  auto reply = std::async(std::launch::async, [&] {
+    return client.call(request_of({{"gain", number_value(3)}}));
+  });
+  CHECK(shown.log.wait_for("asked: ", 2));
+  shown.server->on_answer(7, "");
+  CHECK(reasons_in(reply.get())[0].empty());
 }

@@ -8,6 +8,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <condition_variable>
+#include <mutex>
 #include <thread>
 
 using namespace roscell::engine;
@@ -92,6 +95,33 @@ struct prefixer : executor {
   }
 
   std::string word;
+};
+
+/// What a view was told, by any thread.
+class logged_answers {
+public:
+  void add(const std::string& text) {
+    const std::lock_guard guard{mutex_};
+    all_.push_back(text);
+    changed_.notify_all();
+  }
+
+  bool wait_for(const std::string& text) {
+    std::unique_lock guard{mutex_};
+    return changed_.wait_for(guard, patience, [&] {
+      return std::find(all_.begin(), all_.end(), text) != all_.end();
+    });
+  }
+
+  std::vector<std::string> all() const {
+    const std::lock_guard guard{mutex_};
+    return all_;
+  }
+
+private:
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::string> all_;
 };
 
 /// Takes none.
@@ -230,4 +260,70 @@ TEST_CASE_METHOD(tuned_skill,
   engine.request_stop();
   runner.join();
   CHECK(log.text == "c1 ");
+}
+
+namespace {
+
+/// Keeps what is answered to requests.
+struct requesting_view : parameter_view {
+  explicit requesting_view(logged_answers& a) : answers(a) {
+    // nop
+  }
+
+  void open(const parameters&) override {
+    // nop
+  }
+
+  void show(const parameters& now) override {
+    answers.add("shown " + now.text("word", ""));
+  }
+
+  void on_answer(std::int64_t request, const std::string& problem) override {
+    answers.add(std::to_string(request) + " " + problem);
+  }
+
+  void suspend() override {
+    // nop
+  }
+
+  void resume(const changed_variables&) override {
+    // nop
+  }
+
+  logged_answers& answers;
+};
+
+} // namespace
+
+TEST_CASE_METHOD(tuned_skill,
+                 "what a program asks for is told to the node, and the "
+                 "answer comes after the change") {
+  logged_answers answers;
+  request_function request;
+  env.changeable = "{\"word\":{}}";
+  parts.set_parameter_view("prompted",
+                           [&](const environment&, const say_function&,
+                               const request_function& given) {
+                             request = given;
+                             return std::make_unique<requesting_view>(answers);
+                           });
+  run_until([&](auto&) {
+    CHECK(request(std::string(3501, 'x')) == 0);
+    const auto first = request("{\"word\":\"b\"}");
+    CHECK(first > 0);
+    CHECK(node.wait_for("ROSCELL_PARAMETERS_WANTED=" + std::to_string(first)
+                        + " {\"word\":\"b\"}"));
+    write_line("{\"number\":1,\"parameters\":{\"word\":\"b\"}}\n");
+    CHECK(node.wait_for("ROSCELL_PARAMETERS_TAKEN=1"));
+    write_line("{\"request\":" + std::to_string(first)
+               + ",\"problem\":\"\"}\n");
+    CHECK(answers.wait_for(std::to_string(first) + " "));
+    // No number comes again.
+    CHECK(request("{}") > first);
+    write_line("{\"request\":\"x\",\"problem\":\"\"}\n{\"request\":5}\n"
+               "{\"request\":5,\"problem\":\"no\"}\n");
+    CHECK(answers.wait_for("5 no"));
+  });
+  CHECK(answers.all().size() == 3);
+  CHECK(answers.all().front() == "shown b");
 }

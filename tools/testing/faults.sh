@@ -25,8 +25,8 @@ done
 export ASAN_OPTIONS=detect_leaks=1:new_delete_type_mismatch=0
 logs=$here/build/fault-logs
 mkdir -p "$logs"
-programs=(roscell instance_shim skills/all stock_program delay_line bent_host
-  render_scenes compare_poses robot_controller)
+programs=(roscell instance_shim skills/all stock_program parameter_client
+  delay_line bent_host render_scenes compare_poses robot_controller)
 
 # make_clone: of what is committed, where an earlier one is built upon.
 make_clone() {

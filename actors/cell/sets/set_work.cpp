@@ -2,6 +2,7 @@
 #include "actors/cell/state/coordinator_store.hpp"
 #include "actors/cell/state/coordinator_timer.hpp"
 #include "actors/core/answer_limits.hpp"
+#include "actors/core/routed_answer.hpp"
 #include "messages/event_kinds.hpp"
 #include "messages/failure.hpp"
 
@@ -28,16 +29,6 @@ json request_for(const task_set_record& record, const set_step& x) {
   request.request_id = run_id(record, x.change.task);
   request.replace = x.change.action == set_action::runs;
   return message_json(request);
-}
-
-/// Why it was refused; empty: it was not.
-std::string problem_of(const request_routed& answer) {
-  if (answer.refusal.empty())
-    return {};
-  const auto text = json::parse(answer.text, nullptr, false);
-  if (!text.is_object())
-    return answer.refusal;
-  return failure_from(text).message;
 }
 
 /// Meanwhile the set may be another one, or gone: what there is to do then is
@@ -75,7 +66,9 @@ void carry_out(coordinator_pointer self, const task_set_record& record,
   self->request(st.router, limits::request::forwarded, std::move(request))
       .then(
           [self, set = record.task, step](const request_routed& answer) {
-            on_answered(self, set, step.change, problem_of(answer));
+            const auto why = refusal_in(answer);
+            on_answered(self, set, step.change,
+                        why ? why->message : std::string{});
           },
           [self, set = record.task, step](const caf::error& why) {
             on_answered(self, set, step.change, to_failure(why).message);

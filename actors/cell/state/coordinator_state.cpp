@@ -1,6 +1,7 @@
 #include "actors/cell/state/coordinator_state.hpp"
 
 #include "actors/core/clocks.hpp"
+#include "actors/core/ros2_setting.hpp"
 
 namespace roscell {
 
@@ -13,6 +14,7 @@ void complete_spec(const cell_coordinator_state& st, instance_spec& spec) {
   // No skill may choose another cell's discovery server.
   for (const auto& [name, value] : st.setup.environment)
     spec.environment[name] = value;
+  let_ros2_set_parameters(spec, st.setup.ros2_set_parameters);
 }
 
 bool is_draining(const cell_coordinator_state& st, const registry_entry& node) {

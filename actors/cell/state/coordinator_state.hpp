@@ -64,6 +64,7 @@ struct coordinator_setup {
   std::vector<task_set_record> sets;   ///< The same.
   /// What instances of this cell find in their environment.
   std::map<std::string, std::string> environment;
+  bool ros2_set_parameters = false; ///< See `let_ros2_set_parameters`.
   /// Towards other coordinators and nodes in no cell; all invalid in a cell
   /// that is alone.
   discovery_actor discovery;

@@ -5,6 +5,7 @@
 #include "actors/cell/tasks/step_ends.hpp"
 #include "actors/cell/tasks/task_removals.hpp"
 #include "actors/cell/updates/update_run.hpp"
+#include "actors/core/ros2_setting.hpp"
 #include "actors/placement/questions/search_problem.hpp"
 #include "actors/placement/reading/task_reading.hpp"
 
@@ -69,6 +70,7 @@ update_question question_of(const cell_coordinator_state& st,
   }
   for (const auto& [name, value] : st.setup.environment)
     result.cell_environment.insert(name);
+  result.cell_environment.insert(ros2_setting_variable);
   result.restart_all = run.asked.restart_all;
   result.placed = std::move(placed);
   result.steps = std::move(steps);

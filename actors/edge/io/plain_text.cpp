@@ -67,4 +67,11 @@ bool is_uuid(std::string_view text) {
                 == std::string_view::npos;
 }
 
+std::string_view take_until(std::string_view& text, char mark) {
+  const auto end = text.find(mark);
+  const auto result = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return result;
+}
+
 } // namespace roscell

@@ -47,4 +47,8 @@ bool is_name(std::string_view text);
 /// Whether the text can be a node's UUID: as `uuid` there.
 bool is_uuid(std::string_view text);
 
+/// Takes the text before the next `mark`, or all of it, off the front, and the
+/// mark with it.
+std::string_view take_until(std::string_view& text, char mark);
+
 } // namespace roscell

@@ -20,7 +20,7 @@ void hear(int socket, const listener& on_notification) {
   const auto notified = receive_notifications(socket);
   if (notified.ready || notified.alive || notified.stopping
       || !notified.status.empty() || notified.parameters_taken > 0
-      || notified.parameters_refused > 0)
+      || notified.parameters_refused > 0 || notified.parameters_wanted > 0)
     on_notification(notified);
 }
 

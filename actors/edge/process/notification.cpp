@@ -47,12 +47,26 @@ int64_t change_number(std::string_view text) {
              : 0;
 }
 
-/// "7 a reason"
-void read_refusal(std::string_view text, notification& result) {
+/// "7 some text": takes the number off the front.
+int64_t take_number(std::string_view& text) {
   const auto end = std::min(text.find(' '), text.size());
-  result.parameters_refused = change_number(text.substr(0, end));
-  if (result.parameters_refused > 0 && end < text.size())
-    result.refusal = bounded_text(text.substr(end + 1), max_refusal_bytes);
+  const auto result = change_number(text.substr(0, end));
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return result;
+}
+
+void read_refusal(std::string_view text, notification& result) {
+  result.parameters_refused = take_number(text);
+  if (result.parameters_refused > 0)
+    result.refusal = bounded_text(text, max_refusal_bytes);
+}
+
+/// A datagram bounds how long it is; what it says is looked at by who carries
+/// it out.
+void read_request(std::string_view text, notification& result) {
+  result.parameters_wanted = take_number(text);
+  if (result.parameters_wanted > 0)
+    result.wanted_parameters = bounded_text(text, max_notification_bytes);
 }
 
 void read_line(std::string_view line, notification& result) {
@@ -78,6 +92,8 @@ void read_line(std::string_view line, notification& result) {
     result.parameters_taken = change_number(*taken);
   else if (const auto refused = value_of(line, "ROSCELL_PARAMETERS_REFUSED="))
     read_refusal(*refused, result);
+  else if (const auto wanted = value_of(line, "ROSCELL_PARAMETERS_WANTED="))
+    read_request(*wanted, result);
 }
 
 } // namespace
@@ -116,17 +132,14 @@ void merge(notification& before, notification later) {
     before.parameters_refused = later.parameters_refused;
     before.refusal = std::move(later.refusal);
   }
+  // A program has one such request at a time.
+  if (later.parameters_wanted > 0) {
+    before.parameters_wanted = later.parameters_wanted;
+    before.wanted_parameters = std::move(later.wanted_parameters);
+  }
 }
 
 namespace {
-
-/// Takes the text before the next `mark`, or all of it, off the front.
-std::string_view take_until(std::string_view& text, char mark) {
-  const auto end = text.find(mark);
-  const auto result = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  return result;
-}
 
 std::optional<double> parsed_number(std::string_view text) {
   double value = 0;

@@ -32,6 +32,10 @@ struct notification {
   /// after a blank why, in a sentence.
   int64_t parameters_refused = 0;
   std::string refusal;
+  /// ROSCELL_PARAMETERS_WANTED=, the number of a request for other
+  /// parameters, and after a blank a JSON object of those that change.
+  int64_t parameters_wanted = 0;
+  std::string wanted_parameters;
 };
 
 /// Longest datagram that is read; longer ones are ignored whole.

@@ -1,6 +1,7 @@
 #include "actors/edge/process/parameter_file.hpp"
 
 #include "actors/edge/io/fifo.hpp"
+#include "schemas/document.hpp"
 
 #include <unistd.h>
 
@@ -16,12 +17,12 @@ void make_parameter_file(const fs::path& file) {
   make_fifo(file);
 }
 
-parameter_delivery write_parameters(const fs::path& file, int64_t number,
-                                    const std::string& parameters) {
-  // What an earlier line has left behind, of which there was room for a part
-  // only, ends at the first of these.
-  const auto line = "\n{\"number\":" + std::to_string(number)
-                    + ",\"parameters\":" + parameters + "}\n";
+namespace {
+
+/// What an earlier line has left behind, of which there was room for a part
+/// only, ends at the first end of line.
+parameter_delivery write_line(const fs::path& file, const std::string& text) {
+  const auto line = "\n" + text + "\n";
   if (line.size() > max_parameter_line_bytes)
     return parameter_delivery::too_long;
   const auto fifo = open_fifo_to_write(file);
@@ -31,6 +32,21 @@ parameter_delivery write_parameters(const fs::path& file, int64_t number,
   const bool is_whole = ::write(fifo.out.get(), line.data(), line.size())
                         == static_cast<ssize_t>(line.size());
   return is_whole ? parameter_delivery::written : parameter_delivery::failed;
+}
+
+} // namespace
+
+parameter_delivery write_parameters(const fs::path& file, int64_t number,
+                                    const std::string& parameters) {
+  return write_line(file, "{\"number\":" + std::to_string(number)
+                              + ",\"parameters\":" + parameters + "}");
+}
+
+parameter_delivery write_request_answer(const fs::path& file, int64_t number,
+                                        const std::string& problem) {
+  const json answer{{"request", number}, {"problem", problem}};
+  return write_line(
+      file, answer.dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 } // namespace roscell

@@ -35,9 +35,19 @@ parameter_delivery write_parameters(const std::filesystem::path& file,
                                     int64_t number,
                                     const std::string& parameters);
 
-/// The same for an instance, wherever its runtime has the file.
+/// Writes what has become of a request of the program, with its number, as a
+/// line:
+/// {"request":7,"problem":"a sentence"}. Never blocks.
+/// @param problem empty: it is done.
+parameter_delivery write_request_answer(const std::filesystem::path& file,
+                                        int64_t number,
+                                        const std::string& problem);
+
+/// Both for an instance, wherever its runtime has the file.
 using parameter_writer = std::function<parameter_delivery(
     const std::string& instance, int64_t number,
     const std::string& parameters)>;
+using request_answerer = std::function<parameter_delivery(
+    const std::string& instance, int64_t number, const std::string& problem)>;
 
 } // namespace roscell

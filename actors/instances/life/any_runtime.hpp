@@ -44,7 +44,9 @@ inline instance_notified status_notification(const std::string& instance,
           x.remark,
           x.parameters_taken,
           x.parameters_refused,
-          x.refusal};
+          x.refusal,
+          x.parameters_wanted,
+          x.wanted_parameters};
 }
 
 // Followers of logs.

@@ -41,6 +41,8 @@ struct stream {
 ///   there are none |
 /// | ROSCELL_CHANGEABLE | JSON object: those of them that can be changed while
 ///   it runs, as the descriptor declares them | none can |
+/// | ROSCELL_ROS2_SET_PARAMETERS | 1: clients of ROS 2 may change those | they
+///   are refused |
 /// | ROSCELL_HEALTH | 1: the node wants to know what the streams do | it is not
 ///   told |
 struct environment {
@@ -54,6 +56,7 @@ struct environment {
   std::vector<stream> outputs;
   engine::parameters parameters;
   std::string changeable; ///< JSON object; empty: none.
+  bool ros2_set_parameters = false;
   std::optional<unsigned> gpu;
   std::string notify_socket;
   std::optional<std::chrono::microseconds> watchdog;

@@ -20,7 +20,7 @@ using output_factory =
     std::function<std::unique_ptr<output_handler>(const stream_context&)>;
 
 using view_factory = std::function<std::unique_ptr<parameter_view>(
-    const environment&, const say_function&)>;
+    const environment&, const say_function&, const request_function&)>;
 
 /// What a skill's binary is able to run: executors by implementation model,
 /// input and output handlers by protocol. Starts with the `file` protocol; a
@@ -60,7 +60,8 @@ public:
   /// Null for a skill without a parameter that can be changed, or whose step
   /// does not use the protocol.
   std::unique_ptr<parameter_view>
-  make_parameter_view(const environment& env, const say_function& say) const;
+  make_parameter_view(const environment& env, const say_function& say,
+                      const request_function& request) const;
 
   /// One line for people: models and protocols.
   std::string summary() const;

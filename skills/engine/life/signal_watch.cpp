@@ -150,4 +150,16 @@ ordered_parameters read_parameter_line(const std::string& line) {
   return {number->get<std::int64_t>(), values->dump()};
 }
 
+request_answer read_answer_line(const std::string& line) {
+  const auto document = nlohmann::json::parse(line, nullptr, false);
+  if (!document.is_object())
+    return {};
+  const auto number = document.find("request");
+  const auto problem = document.find("problem");
+  if (number == document.end() || !number->is_number_integer()
+      || problem == document.end() || !problem->is_string())
+    return {};
+  return {number->get<std::int64_t>(), problem->get<std::string>()};
+}
+
 } // namespace roscell::engine

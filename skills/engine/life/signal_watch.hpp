@@ -85,4 +85,14 @@ struct ordered_parameters {
 /// Reads {"number":7,"parameters":{...}}.
 ordered_parameters read_parameter_line(const std::string& line);
 
+/// What has become of a request for other parameters, in `.parameters`,
+/// too.
+struct request_answer {
+  std::int64_t number = 0; ///< Of the request; 0: the line is none.
+  std::string problem;     ///< A sentence; empty: it is done.
+};
+
+/// Reads {"request":7,"problem":""}.
+request_answer read_answer_line(const std::string& line);
+
 } // namespace roscell::engine

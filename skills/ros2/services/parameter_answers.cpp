@@ -225,20 +225,21 @@ std::string parameter_answers::refuse_all(std::string_view request) const {
 }
 
 const std::vector<parameter_service>& parameter_services() {
-#define ROSCELL_SERVICE(name, type, answer)                                    \
+#define ROSCELL_SERVICE(name, type, answer, kind)                              \
   {                                                                            \
     name, "rcl_interfaces::srv::dds_::" type "_Request_",                      \
         "rcl_interfaces::srv::dds_::" type "_Response_",                       \
-        &parameter_answers::answer                                             \
+        &parameter_answers::answer, parameter_service::kind                    \
   }
   static const std::vector<parameter_service> all{
-      ROSCELL_SERVICE("list_parameters", "ListParameters", list),
-      ROSCELL_SERVICE("get_parameters", "GetParameters", get),
-      ROSCELL_SERVICE("get_parameter_types", "GetParameterTypes", types),
-      ROSCELL_SERVICE("describe_parameters", "DescribeParameters", describe),
-      ROSCELL_SERVICE("set_parameters", "SetParameters", refuse),
+      ROSCELL_SERVICE("list_parameters", "ListParameters", list, reads),
+      ROSCELL_SERVICE("get_parameters", "GetParameters", get, reads),
+      ROSCELL_SERVICE("get_parameter_types", "GetParameterTypes", types, reads),
+      ROSCELL_SERVICE("describe_parameters", "DescribeParameters", describe,
+                      reads),
+      ROSCELL_SERVICE("set_parameters", "SetParameters", refuse, sets),
       ROSCELL_SERVICE("set_parameters_atomically", "SetParametersAtomically",
-                      refuse_all)};
+                      refuse_all, sets_all)};
 #undef ROSCELL_SERVICE
   return all;
 }

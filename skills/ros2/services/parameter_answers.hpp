@@ -1,5 +1,7 @@
 #pragma once
 
+#include "skills/ros2/services/parameter_request.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <string>
@@ -32,9 +34,14 @@ public:
   std::string describe(std::string_view request) const;
 
   /// SetParameters and SetParametersAtomically are refused: by DDS nobody
-  /// proves who he is, and nothing would be written down of it.
+  /// proves who he is, so a cell lets them in only where it was set up so.
   std::string refuse(std::string_view request) const;
   std::string refuse_all(std::string_view request) const;
+  /// What one of them asks of the cell, where it does.
+  parameter_request read_request(std::string_view request,
+                                 bool all_or_none) const {
+    return {request, all_or_none, declared_, values_};
+  }
 
 private:
   const nlohmann::json declared_;
@@ -48,6 +55,7 @@ struct parameter_service {
   const char* request;  ///< DDS name of its type.
   const char* response; ///< The same.
   std::string (parameter_answers::*answer)(std::string_view) const;
+  enum { reads, sets, sets_all } kind;
 };
 
 const std::vector<parameter_service>& parameter_services();

@@ -72,9 +72,12 @@ struct parameter_server::service : dds::DataReaderListener,
 
 parameter_server::parameter_server(const engine::environment& env,
                                    std::shared_ptr<shared_participant> shared,
-                                   engine::say_function say)
+                                   engine::say_function say,
+                                   engine::request_function ask_cell)
     : options_(env.parameters), shared_(std::move(shared)),
-      say_(std::move(say)), answers_(env.changeable, remedy_of(env)) {
+      say_(std::move(say)),
+      ask_cell_(env.ros2_set_parameters ? std::move(ask_cell) : nullptr),
+      answers_(env.changeable, remedy_of(env)) {
   // nop
 }
 
@@ -123,6 +126,7 @@ void parameter_server::suspend() {
       participant_->remove(x->replies);
   }
   waiting_.clear();
+  open_.reset();
   services_.clear();
   participant_.reset();
 }
@@ -143,20 +147,42 @@ void parameter_server::take(service& of, dds::DataReader& from) {
   changed_.notify_all();
 }
 
+void parameter_server::on_answer(std::int64_t request,
+                                 const std::string& problem) {
+  const std::lock_guard guard{mutex_};
+  if (open_ && open_->number == request)
+    open_->problem = problem;
+  changed_.notify_all();
+}
+
+void parameter_server::wait_for_work(lock& guard) {
+  const auto is_there = [this] {
+    return stopping_ || !waiting_.empty() || (open_ && open_->problem);
+  };
+  if (open_)
+    changed_.wait_until(guard, open_->until, is_there);
+  else
+    changed_.wait(guard, is_there);
+}
+
 void parameter_server::run() {
-  std::unique_lock guard{mutex_};
+  lock guard{mutex_};
   for (;;) {
-    changed_.wait(guard, [this] { return stopping_ || !waiting_.empty(); });
+    wait_for_work(guard);
     if (stopping_)
       return;
+    if (open_
+        && (open_->problem || std::chrono::steady_clock::now() >= open_->until))
+      end_request(guard);
+    if (waiting_.empty())
+      continue;
     const auto next = std::move(waiting_.front());
     waiting_.pop_front();
     answer(guard, next);
   }
 }
 
-void parameter_server::answer(std::unique_lock<std::mutex>& guard,
-                              const request& x) {
+void parameter_server::answer(lock& guard, const request& x) {
   const auto whom = to_guid(x.from.writer_guid());
   const bool is_known = changed_.wait_for(guard, reader_patience, [&] {
     return stopping_ || !is_reader(whom) || x.of->readers.count(whom) > 0;
@@ -164,18 +190,51 @@ void parameter_server::answer(std::unique_lock<std::mutex>& guard,
   if (stopping_ || !is_known)
     return;
   try {
-    auto reply = (answers_.*x.of->what.answer)(x.payload);
-    eprosima::fastrtps::rtps::WriteParams to;
-    to.related_sample_identity(x.from);
-    guard.unlock();
-    x.of->replies->write(&reply, to);
-    guard.lock();
+    if (ask_cell_ && x.of->what.kind != parameter_service::reads)
+      begin_request(guard, x);
+    else
+      reply(guard, x, (answers_.*x.of->what.answer)(x.payload));
   } catch (const cdr_error& e) {
-    if (!guard.owns_lock())
-      guard.lock();
     say_(std::string{"a request to '"} + x.of->what.name
          + "' cannot be read: " + e.what());
   }
+}
+
+/// The answer may come at once: it is looked at when the lock is let go.
+void parameter_server::begin_request(lock& guard, const request& x) {
+  auto wanted = answers_.read_request(
+      x.payload, x.of->what.kind == parameter_service::sets_all);
+  if (wanted.changes().empty())
+    return reply(guard, x, wanted.reply(""));
+  if (open_)
+    return reply(guard, x, wanted.reply("another change is under way"));
+  const auto number = ask_cell_(wanted.changes());
+  if (number == 0)
+    return reply(guard, x,
+                 wanted.reply("it is more than the cell can be asked for at a "
+                              "time, or nobody is there to be asked"));
+  open_ = open_request{number,
+                       std::move(wanted),
+                       x,
+                       std::chrono::steady_clock::now() + cell_patience,
+                       {}};
+}
+
+void parameter_server::end_request(lock& guard) {
+  const auto ended = std::move(*open_);
+  open_.reset();
+  reply(
+      guard, ended.from,
+      ended.wanted.reply(ended.problem.value_or("the cell has not answered")));
+}
+
+/// Without the lock: the listeners of DDS take it while DDS holds its own.
+void parameter_server::reply(lock& guard, const request& x, std::string text) {
+  eprosima::fastrtps::rtps::WriteParams to;
+  to.related_sample_identity(x.from);
+  guard.unlock();
+  x.of->replies->write(&text, to);
+  guard.lock();
 }
 
 } // namespace roscell::ros2

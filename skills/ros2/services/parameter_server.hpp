@@ -7,10 +7,12 @@
 
 #include <fastdds/rtps/common/SampleIdentity.h>
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -22,6 +24,9 @@ namespace roscell::ros2 {
 /// does: a request names the reader that waits for the reply, and the reply
 /// names the request. On a thread of its own, for a reply waits until that
 /// reader is known here, which the thread of DDS finds out.
+///
+/// What a client sets is asked of the cell, where that lets it, and answered
+/// once the cell has; meanwhile the other services go on.
 class parameter_server : public engine::parameter_view {
 public:
   /// Longest request that is looked at, and how many may wait.
@@ -32,14 +37,18 @@ public:
   /// again.
   static constexpr std::chrono::milliseconds reader_patience{500};
 
+  /// How long the cell has for a change; its node has less.
+  static constexpr std::chrono::seconds cell_patience{25};
+
   parameter_server(const engine::environment& env,
                    std::shared_ptr<shared_participant> shared,
-                   engine::say_function say);
+                   engine::say_function say, engine::request_function ask_cell);
 
   ~parameter_server() override;
 
   void open(const engine::parameters& now) override;
   void show(const engine::parameters& now) override;
+  void on_answer(std::int64_t request, const std::string& problem) override;
   void suspend() override;
   void resume(const engine::changed_variables& reported) override;
 
@@ -55,20 +64,37 @@ private:
     std::string payload;
   };
 
+  /// What the cell was asked for. There is one at a time.
+  struct open_request {
+    std::int64_t number;
+    parameter_request wanted;
+    request from;
+    std::chrono::steady_clock::time_point until;
+    std::optional<std::string> problem; ///< None: no answer has come.
+  };
+
+  using lock = std::unique_lock<std::mutex>;
+
   void begin();
   void run();
+  void wait_for_work(lock& guard);
   void take(service& of, dds::DataReader& from);
-  void answer(std::unique_lock<std::mutex>& guard, const request& x);
+  void answer(lock& guard, const request& x);
+  void begin_request(lock& guard, const request& x);
+  void end_request(lock& guard);
+  static void reply(lock& guard, const request& x, std::string text);
 
   const engine::parameters options_;
   const std::shared_ptr<shared_participant> shared_;
   const engine::say_function say_;
+  const engine::request_function ask_cell_; ///< Empty: nothing may be set.
   std::shared_ptr<participant> participant_;
   std::vector<std::unique_ptr<service>> services_;
   std::mutex mutex_; // Guards what follows, and what services know of readers.
   std::condition_variable changed_;
   parameter_answers answers_;
   std::deque<request> waiting_;
+  std::optional<open_request> open_;
   bool stopping_ = false;
   std::thread thread_;
 };

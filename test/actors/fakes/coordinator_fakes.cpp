@@ -383,7 +383,7 @@ void paper_cell::start_parts(const coordinator_setup& how) {
   router = spawn(time.system, context, request_router,
                  std::make_shared<const request_registry>(make_registry(true)),
                  std::shared_ptr<const node_services>(services));
-  caf::anon_send(coordinator, serve_members{router});
+  caf::anon_send(coordinator, use_router{router});
   time.settle();
 }
 
@@ -422,6 +422,7 @@ coordinator_setup paper_cell::setup(const std::vector<task_record>& tasks,
   result.agent = caf::actor_cast<node_agent_actor>(base.actor);
   result.supervisor = caf::actor_cast<container_supervisor_actor>(base.actor);
   result.environment = {{"ROS_DOMAIN_ID", "7"}};
+  result.ros2_set_parameters = ros2_set_parameters;
   result.store = caf::actor_cast<state_store_actor>(store);
   result.keeper = caf::actor_cast<build_keeper_actor>(build_store);
   result.build_key = "key of base";

@@ -113,6 +113,7 @@ struct paper_cell {
   /// What the coordination node's keeper says that builds are, by hash.
   std::map<std::string, installed_skill> kept_builds;
   std::vector<std::string> dropped_builds; ///< What it was told to drop.
+  bool ros2_set_parameters = false; ///< Of a coordinator that begins anew.
   bool disk_full = false;
   bool slow_disk = false; ///< Writes when told to.
   std::vector<std::pair<caf::response_promise, store_records>> writes;

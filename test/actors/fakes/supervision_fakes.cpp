@@ -208,6 +208,7 @@ fake_supervisor(caf::actor_system& system,
         [](const container_exited&) {},
         [](const instance_notified&) {},
         [](const runtime_problem_changed&) {},
+        [](const use_router&) {},
         [reported](const instance_changed& x) {
           reported->rows.push_back(x.instance);
         },

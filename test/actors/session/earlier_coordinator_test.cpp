@@ -45,9 +45,8 @@ private:
     site.base.cell = recorded.frame(1).at("cell");
     site.base.incarnation = recorded.frame(1).at("incarnation");
     site.start(node);
-    caf::anon_send(
-        caf::actor_cast<membership_actor>(node.membership),
-        serve_members{caf::actor_cast<request_router_actor>(router)});
+    caf::anon_send(caf::actor_cast<membership_actor>(node.membership),
+                   use_router{caf::actor_cast<request_router_actor>(router)});
     site.join(node);
     site.pass(1s);
   }

@@ -74,9 +74,8 @@ TEST_CASE_METHOD(cell_fixture, "a member is a node agent") {
     const std::string question = R"({"type":"cost_query"})";
     CHECK(to_failure((*ask(question))->error()).message
           == "the node is still starting");
-    caf::anon_send(
-        caf::actor_cast<membership_actor>(node.membership),
-        serve_members{caf::actor_cast<request_router_actor>(router)});
+    caf::anon_send(caf::actor_cast<membership_actor>(node.membership),
+                   use_router{caf::actor_cast<request_router_actor>(router)});
     CHECK((*ask(question))->value().text
           == R"({"nodes":[],"type":"cost_report"})");
     CHECK(asked == std::vector<std::string>{question + " of cost_query"});

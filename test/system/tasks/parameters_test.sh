@@ -208,3 +208,53 @@ test_poses_are_looked_for_otherwise_and_no_picture_is_lost() {
   jq -c '[.stamp, [.tags[]? | .corners_px]]' "$scratch/seen" | sort > "$scratch/b"
   [[ $(comm -23 "$scratch/a" "$scratch/b" | wc -l) -ge 5 ]] || fail "nothing differs"
 }
+
+# set_by_ros2 NAME VALUE: as `ros2 param set` would, from the cell's own network. What
+# the service answers is in $scratch/said.
+set_by_ros2() {
+  (
+    eval "$(to head env)"
+    exec "$ROSCELL_BUILD/bin/parameter_client" \
+      "$(of_step pick pose .spec.instance | tr - _)" "$@"
+  ) > "$scratch/said" 2>> "$scratch/client.log"
+}
+
+test_ros2_sets_parameters_where_the_cell_lets_it_and_the_task_knows_them() {
+  local program
+  use_skills_of_camera
+  start_node head --coordinator --cell line --interface lo --cpu-floor 1 \
+    --ros2-set-parameters
+  make_scenes
+  pick_task 2 > "$scratch/pick.json"
+  to head run "$scratch/pick.json" > "$scratch/out" 2>&1 || fail "$(cat "$scratch/out")"
+  more_lines "$scratch/poses" 5
+  program=$(of_step pick pose .figures.use.pid)
+  set_by_ros2 decimation 3 || fail "$(cat "$scratch/said" "$scratch/client.log")"
+  expect "what the task says" "$(of_step pick pose .spec.parameters.decimation)" 3
+  await head '.event == "parameters_changed" and .data.parameters.decimation == 3' \
+    > /dev/null
+  more_lines "$scratch/poses" 5
+  while IFS='|' read -r name value words; do
+    ! set_by_ros2 "$name" "$value" || fail "$name=$value was set"
+    has_line "$words" < "$scratch/said" || fail "$name: $(cat "$scratch/said")"
+  done << EOF
+decimation|99|failed: .* a number from 1 to 16
+queue_length|9|failed: it cannot be changed while the skill runs
+decimashun|3|failed: there is no such parameter
+EOF
+  # The program that is killed comes back with what was set, and its file shows it.
+  kill -KILL "$program"
+  more_lines "$scratch/poses" 5
+  expect "after its death" "$(of_step pick pose .spec.parameters.decimation)" 3
+  to head apply --dry-run "$scratch/pick.json" > "$scratch/out" 2>&1
+  has_line 'parameters.decimation: 3 -> 2' < "$scratch/out" || fail "$(cat "$scratch/out")"
+  # Nothing of it is let in once the coordinator says so.
+  stop_node head
+  start_node head --coordinator --cell line --interface lo --cpu-floor 1
+  to head restart pick > "$scratch/out" 2>&1 || fail "$(cat "$scratch/out")"
+  more_lines "$scratch/poses" 5
+  ! set_by_ros2 decimation 4 || fail "it was set"
+  has_line 'failed: not allowed by DDS, which proves nobody' < "$scratch/said" \
+    || fail "$(cat "$scratch/said")"
+  expect "in the end" "$(of_step pick pose .spec.parameters.decimation)" 3
+}

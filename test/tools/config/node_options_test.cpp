@@ -132,6 +132,11 @@ TEST_CASE("only a coordinator has a name to take and a cell to balance",
   node_options keeping;
   keeping.config.rebalance = false;
   CHECK(refusal(keeping).find("--no-rebalance") == 0);
+  node_options open;
+  open.config.ros2_set_parameters = true;
+  CHECK(refusal(open).find("--ros2-set-parameters") == 0);
+  open.config.coordinator = true;
+  CHECK(refusal(open).empty());
   forcing.config.coordinator = keeping.config.coordinator = true;
   CHECK(refusal(forcing).empty());
   CHECK(refusal(keeping).empty());
@@ -233,7 +238,8 @@ TEST_CASE("the command line takes what the design names", "[tools]") {
   CHECK(parses({"node", "--join", "10.0.0.1:11811", "--interface", "lo"}));
   CHECK(parses({"node", "--wait", "--peer", "10.0.0.1", "--peer", "10.0.0.2",
                 "--public-domain", "232"}));
-  CHECK(parses({"node", "--coordinator", "--no-rebalance", "--force"}));
+  CHECK(parses({"node", "--coordinator", "--no-rebalance", "--force",
+                "--ros2-set-parameters"}));
   CHECK(parses({"form", "a", "b", "--instances", "reschedule"}));
   CHECK(parses({"transfer", "a", "hall", "--timeout", "1m", "-o", "json"}));
   CHECK(parses({"release", "--instances", "terminate", "a"}));

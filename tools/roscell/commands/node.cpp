@@ -82,6 +82,9 @@ void add_network(CLI::App& command, node_options& options) {
   command.add_flag_callback(
       "--no-rebalance", [&config] { config.rebalance = false; },
       "Keep this cell out when cells are balanced");
+  command.add_flag("--ros2-set-parameters", config.ros2_set_parameters,
+                   "Let clients of ROS 2, who prove nothing, change parameters "
+                   "of running skills");
   command.add_flag("--force", config.force,
                    "Take the cell's name although another coordinator has it");
   command

@@ -80,6 +80,10 @@ void check_cell_options(const node_config& config) {
     throw command_error{exit_usage,
                         "--no-rebalance is for a coordinator's cell",
                         "add --coordinator, or leave out --no-rebalance"};
+  if (config.ros2_set_parameters)
+    throw command_error{exit_usage,
+                        "--ros2-set-parameters is for a coordinator's cell",
+                        "give it to the coordinator, and leave it out here"};
 }
 
 /// The ways to come into a cell exclude each other.

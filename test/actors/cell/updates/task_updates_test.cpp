@@ -1,3 +1,4 @@
+#include "actors/core/ros2_setting.hpp"
 #include "test/actors/fakes/careful_cell.hpp"
 
 #include <algorithm>
@@ -102,6 +103,35 @@ TEST_CASE_METHOD(changing_cell, "A task that does not differ is left alone",
   CHECK(left.deployments.size() == 1);
   CHECK(left.removals.empty());
   CHECK(count("task_update_begun") == 0);
+}
+
+TEST_CASE_METHOD(changing_cell,
+                 "Whether ROS 2 may set parameters is told to what starts, and "
+                 "changes no step",
+                 "[task_updates]") {
+  run(two_steps(1, 1));
+  const auto is_let_in = [](const fake_agent& node) {
+    return lets_ros2_set_parameters(node.running.begin()->second.spec);
+  };
+  CHECK_FALSE(is_let_in(left));
+  ros2_set_parameters = true;
+  begin_anew();
+  REQUIRE(enter(left));
+  REQUIRE(enter(right));
+  CHECK(update(two_steps(1, 1)).at("outcome") == "unchanged");
+  CHECK(update(two_steps(2, 1)).at("outcome") == "begun");
+  settle();
+  CHECK(is_let_in(left));
+  CHECK_FALSE(is_let_in(right));
+  // And no more where the cell does not let it.
+  ros2_set_parameters = false;
+  begin_anew();
+  REQUIRE(enter(left));
+  REQUIRE(enter(right));
+  CHECK(update(two_steps(2, 1)).at("outcome") == "unchanged");
+  update(two_steps(3, 1));
+  settle();
+  CHECK_FALSE(is_let_in(left));
 }
 
 TEST_CASE_METHOD(changing_cell,

@@ -191,3 +191,20 @@ TEST_CASE("merged notifications keep the answers to the newest changes") {
   merge(before, parse_notification("ROSCELL_PARAMETERS_REFUSED=8 other"));
   CHECK(before.refusal == "other");
 }
+
+TEST_CASE("a program asks for parameters under a number, one at a time") {
+  auto asked =
+      parse_notification("ROSCELL_PARAMETERS_WANTED=7 {\"word\":\"a b\"}");
+  CHECK(asked.parameters_wanted == 7);
+  CHECK(asked.wanted_parameters == R"({"word":"a b"})");
+  for (const std::string text : {"", " {}", "0 {}", "x {}", "-1 {}"}) {
+    const auto none = parse_notification("ROSCELL_PARAMETERS_WANTED=" + text);
+    CHECK(none.parameters_wanted == 0);
+    CHECK(none.wanted_parameters.empty());
+  }
+  merge(asked, parse_notification("WATCHDOG=1"));
+  CHECK(asked.parameters_wanted == 7);
+  merge(asked, parse_notification("ROSCELL_PARAMETERS_WANTED=8 {}"));
+  CHECK(asked.parameters_wanted == 8);
+  CHECK(asked.wanted_parameters == "{}");
+}

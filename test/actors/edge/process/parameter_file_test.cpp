@@ -39,6 +39,17 @@ TEST_CASE("a program is told all parameters with a number, on a line") {
   CHECK(read_by(program) == "\n{\"number\":7,\"parameters\":{\"a\":1}}\n");
 }
 
+TEST_CASE("a program is told what has become of its request, on a line") {
+  temp_folder folder;
+  const auto file = parameter_file_of(folder.path() / "notify");
+  make_parameter_file(file);
+  const auto program = open_as_program(file);
+  CHECK(write_request_answer(file, 7, "no\n\xff")
+        == parameter_delivery::written);
+  CHECK(read_by(program)
+        == "\n{\"problem\":\"no\\n\xef\xbf\xbd\",\"request\":7}\n");
+}
+
 TEST_CASE("who cannot be told of parameters is known, and why") {
   temp_folder folder;
   const auto file = folder.path() / "notify.parameters";
