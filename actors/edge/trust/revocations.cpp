@@ -1,0 +1,111 @@
+#include "actors/edge/trust/revocations.hpp"
+
+#include "actors/edge/io/crypto.hpp"
+#include "actors/edge/io/plain_text.hpp"
+#include "actors/edge/trust/limits.hpp"
+
+#include <charconv>
+#include <utility>
+
+namespace roscell {
+
+namespace {
+
+constexpr std::string_view first_line = "roscell-revoked 1";
+constexpr std::string_view number_word = "number ";
+constexpr std::string_view signature_word = "signature ";
+constexpr size_t max_serial_digits = 40;
+
+std::optional<int64_t> number_in(std::string_view text) {
+  int64_t result = 0;
+  const auto* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, result);
+  return error == std::errc{} && rest == end && result >= 0
+             ? std::optional{result}
+             : std::nullopt;
+}
+
+bool is_serial(std::string_view text) {
+  return !text.empty() && text.size() <= max_serial_digits
+         && text.find_first_not_of("0123456789abcdef")
+                == std::string_view::npos;
+}
+
+/// Takes a line that begins with the word off the front; none: it does not.
+std::optional<std::string_view> take_word_line(std::string_view& text,
+                                               std::string_view word) {
+  if (text.substr(0, word.size()) != word)
+    return std::nullopt;
+  return take_until(text, '\n').substr(word.size());
+}
+
+} // namespace
+
+revocation_list::revocation_list(std::string site) : site_(std::move(site)) {
+  // nop
+}
+
+bool revocation_list::add(const std::string& serial, int64_t ends_unix_s,
+                          int64_t now_unix_s) {
+  for (auto i = serials_.begin(); i != serials_.end();)
+    if (i->second + limits::trust::renewal_s < now_unix_s)
+      i = serials_.erase(i);
+    else
+      ++i;
+  if (serials_.size() >= limits::trust::revoked && !contains(serial))
+    return false;
+  serials_[serial] = ends_unix_s;
+  ++number_;
+  return true;
+}
+
+std::string revocation_list::text() const {
+  std::string result{first_line};
+  result += "\nsite " + site_ + "\n" + std::string{number_word}
+            + std::to_string(number_) + "\n";
+  for (const auto& [serial, ends] : serials_)
+    result += serial + " " + std::to_string(ends) + "\n";
+  return result;
+}
+
+std::string revocation_list::signed_text(const private_key& site_key) const {
+  const auto body = text();
+  return body + std::string{signature_word} + to_hex(site_key.sign(body))
+         + "\n";
+}
+
+bool revocation_list::take_line(std::string_view line) {
+  const auto serial = take_until(line, ' ');
+  const auto ends = number_in(line);
+  return is_serial(serial) && ends && serials_.size() < limits::trust::revoked
+         && serials_.emplace(serial, *ends).second;
+}
+
+std::optional<revocation_list> revocation_list::read(std::string_view text,
+                                                     const certificate& site) {
+  if (text.empty() || text.size() > limits::trust::revocations_bytes
+      || text.back() != '\n')
+    return std::nullopt;
+  revocation_list result{site.site()};
+  auto rest = text;
+  if (take_until(rest, '\n') != first_line
+      || take_until(rest, '\n') != "site " + site.site())
+    return std::nullopt;
+  const auto number = take_word_line(rest, number_word);
+  const auto known = number ? number_in(*number) : std::nullopt;
+  if (!known)
+    return std::nullopt;
+  result.number_ = *known;
+  while (rest.substr(0, signature_word.size()) != signature_word)
+    if (rest.empty() || !result.take_line(take_until(rest, '\n')))
+      return std::nullopt;
+  const auto body = text.substr(0, text.size() - rest.size());
+  const auto signature = from_hex(*take_word_line(rest, signature_word));
+  // One text for one list, so that nobody else's has the same number.
+  if (!rest.empty() || !signature || body != result.text()
+      || !is_signed_by(site.key(), body, *signature))
+    return std::nullopt;
+  return result;
+}
+
+} // namespace roscell
