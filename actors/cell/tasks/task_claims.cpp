@@ -11,6 +11,7 @@
 #include "actors/core/watching.hpp"
 #include "messages/failure.hpp"
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -28,26 +29,34 @@ caf::error refuse_crowd(const std::string& what) {
 /// A request that finds its task going on is one of its run: sent once more
 /// after the run has ended it starts no other one. If that cannot be written
 /// down it is answered all the same.
-void join_run(coordinator_pointer self, const claim_task& request) {
+/// @param done called once, when all that was to be written of the task before
+/// is; may be null.
+void join_run(coordinator_pointer self, const claim_task& request,
+              const std::function<void()>& done = nullptr) {
   const auto& id = request.request_id;
-  if (id.empty() || self->state.tasks.is_of_run(request.task, id))
+  const bool is_known =
+      id.empty() || self->state.tasks.is_of_run(request.task, id);
+  if (is_known && !done)
     return;
   pending_change change;
-  change.make = [id](task_record record) {
-    return with_request(std::move(record), id);
+  change.make = [id = is_known ? std::string{} : id](task_record record) {
+    return id.empty() ? record : with_request(std::move(record), id);
+  };
+  change.done = [done](const completion&) {
+    if (done)
+      done();
   };
   change_task(self, request.task, std::move(change));
 }
 
-/// The same request again heals what of its task has failed, unless it has been
-/// done under its id.
-void answer_accepted(coordinator_pointer self, const claim_task& request,
+/// What of the task has failed is started again, and who asks for it is told.
+void heal_and_answer(coordinator_pointer self, const std::string& task,
                      claim_promise promise) {
-  const auto& task = request.task;
-  const bool was_done = self->state.tasks.is_of_run(task, request.request_id);
-  join_run(self, request);
-  const auto healed =
-      was_done ? std::vector<std::string>{} : steps_to_heal(self->state, task);
+  if (!self->state.tasks.is_kept(task)) {
+    promise.deliver(terminated_meanwhile(task));
+    return;
+  }
+  const auto healed = steps_to_heal(self->state, task);
   if (healed.empty()) {
     promise.deliver(known_reply(self->state, task));
     return;
@@ -64,6 +73,26 @@ void answer_accepted(coordinator_pointer self, const claim_task& request,
                 promise.deliver(std::move(reply));
               }
             });
+}
+
+/// The same request again heals what of its task has failed, unless it has been
+/// done under its id. An end that has been told and is being written counts,
+/// too: who asks has seen it.
+void answer_accepted(coordinator_pointer self, const claim_task& request,
+                     claim_promise promise) {
+  const auto& st = self->state;
+  const auto& task = request.task;
+  const bool was_done = st.tasks.is_of_run(task, request.request_id);
+  const auto heal = [self, task, promise] {
+    heal_and_answer(self, task, promise);
+  };
+  if (!was_done && !st.deployments.untaken_ends(task).empty())
+    return join_run(self, request, heal);
+  join_run(self, request);
+  if (was_done)
+    promise.deliver(known_reply(st, task));
+  else
+    heal();
 }
 
 /// Answers a claim whose task is known, or whose name is not free yet. True if

@@ -63,6 +63,31 @@ TEST_CASE_METHOD(restarting_cell,
 }
 
 TEST_CASE_METHOD(restarting_cell,
+                 "What has failed is healed though that is being written",
+                 "[task_restart]") {
+  auto document = body();
+  SECTION("by a request of its own") {
+    document["request_id"] = "second";
+  }
+  SECTION("by the same one without a name") {
+    CHECK(document.count("request_id") == 0);
+  }
+  request(body());
+  slow_disk = true;
+  end_only(right, 3);
+  REQUIRE_FALSE(writes.empty());
+  const auto healing = post(document);
+  CHECK_FALSE(*healing);
+  slow_disk = false;
+  finish_writes();
+  time.settle();
+  REQUIRE(*healing);
+  CHECK(reply_of(healing).at("healed") == json{"s1"});
+  CHECK(right.deployments.size() == 2);
+  CHECK(state() == "running");
+}
+
+TEST_CASE_METHOD(restarting_cell,
                  "A failed task that is sent again runs, but for what is done",
                  "[task_restart]") {
   request(body());
