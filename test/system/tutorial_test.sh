@@ -73,6 +73,7 @@ test_each_rung_of_the_ladder_of_examples_prints_what_its_page_shows() {
   # A machine that is busy is warned of.
   play docs/examples/README.md --section "The ladder" --alike head,arm \
     --replace "roscell run docs/=roscell run 2>> $scratch/busy docs/" \
+    --replace "roscell run --set=roscell run 2>> $scratch/busy --set" \
     --instead "cmake --preset release && ninja -C build/release roscell instance_shim skills/all render_scenes compare_poses=true"
 }
 
