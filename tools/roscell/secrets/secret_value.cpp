@@ -90,7 +90,7 @@ std::string ask_for(const std::string& question) {
 }
 
 std::string typed_value(const std::string& name) {
-  const auto first = ask_for("Value of '" + printable(name) + "': ");
+  auto first = ask_for("Value of '" + printable(name) + "': ");
   if (first.empty())
     return first;
   if (ask_for("The same once more: ") != first)

@@ -32,6 +32,7 @@ std::string set_remark(const task_set_row& x) {
 
 std::string labels_text(const std::map<std::string, std::string>& labels) {
   std::vector<std::string> result;
+  result.reserve(labels.size());
   for (const auto& [name, value] : labels)
     result.push_back(name + "=" + value);
   return result.empty() ? "all" : joined(result, " ");
