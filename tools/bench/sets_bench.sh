@@ -7,7 +7,7 @@ cd "$(dirname "$0")/../.."
 . tools/bench/on_nodes.sh "${1:?usage: tools/bench/sets_bench.sh BUILD_DIR [ROBOTS]}"
 robots=${2:-20}
 most_start_ms=2000
-idle_s=10
+idle_s=30
 use_skills
 start_node head --coordinator --cell line --interface lo
 mkdir -p "$scratch/data"
@@ -30,8 +30,12 @@ apply() {
     > "$scratch/applied" 2>&1 || fail "apply: $(cat "$scratch/applied")"
 }
 
+# Threads that rest have ended by then: with them goes the time that they ran.
+settling_s=5
+
 idle_ns() {
   local begin
+  sleep "$settling_s"
   begin=$(cpu_ns head)
   sleep "$idle_s"
   echo $(($(cpu_ns head) - begin))
