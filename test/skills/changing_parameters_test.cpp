@@ -215,15 +215,16 @@ TEST_CASE_METHOD(tuned_skill,
     CHECK(has_come(log.first));
     write_line("{\"number\":42,\"parameters\":{\"word\":\"long\"}}\n");
     // Nothing is told of it before, as that it was taken.
-    std::string told;
-    while (told.find("ROSCELL_PARAMETERS_REFUSED=") == std::string::npos) {
+    std::string reported;
+    while (reported.find("ROSCELL_PARAMETERS_REFUSED=") == std::string::npos) {
       const auto next = node.receive();
       REQUIRE(next);
-      told += *next + "\n";
+      reported += *next + "\n";
     }
-    CHECK_THAT(told, !Contains("ROSCELL_PARAMETERS_TAKEN"));
-    CHECK_THAT(told, Contains("ROSCELL_PARAMETERS_REFUSED=42 a word of at most "
-                              "three letters is needed"));
+    CHECK_THAT(reported, !Contains("ROSCELL_PARAMETERS_TAKEN"));
+    CHECK_THAT(reported,
+               Contains("ROSCELL_PARAMETERS_REFUSED=42 a word of at most "
+                        "three letters is needed"));
     write_line("{\"number\":43,\"parameters\":{\"word\":7}}\n");
     CHECK(node.wait_for("ROSCELL_PARAMETERS_REFUSED=43 parameter 'word' must "
                         "be a text"));

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-struct told_answer {
+struct reported_answer {
   std::string instance;
   int64_t number = 0;
   std::string problem;
@@ -89,7 +89,7 @@ struct requesting_node : virtual_time {
   runtime_actor runtime_in_use;
   request_router_actor router;
   std::vector<route_request> asked;
-  std::vector<told_answer> answers;
+  std::vector<reported_answer> answers;
 };
 
 const request_routed done{R"({"type":"parameters_changed"})", ""};
@@ -188,9 +188,9 @@ TEST_CASE("what a program asks for reaches its supervisor as it has said it",
   notification said;
   said.parameters_wanted = 7;
   said.wanted_parameters = "{}";
-  const auto told = status_notification("i", said, false);
-  CHECK(told.parameters_wanted == 7);
-  CHECK(told.wanted_parameters == "{}");
+  const auto reported = status_notification("i", said, false);
+  CHECK(reported.parameters_wanted == 7);
+  CHECK(reported.wanted_parameters == "{}");
 }
 
 TEST_CASE("only a cell that is set up so lets ROS 2 set parameters",
