@@ -113,8 +113,8 @@ TEST_CASE("another site is not believed, though it has the same name") {
   const made_site site;
   const made_site other{"yard"};
   const made_site same;
-  const auto stranger = chain_of(other.issue(site_role::node, "arm"));
-  CHECK(site.distrust_of(stranger) == "other_site");
+  const auto of_other_site = chain_of(other.issue(site_role::node, "arm"));
+  CHECK(site.distrust_of(of_other_site) == "other_site");
   CHECK(site.distrust_of(chain_of(same.issue(site_role::node, "arm")))
         == "other_site");
   // Nor with the issuer of this one beside it.

@@ -143,8 +143,8 @@ TEST_CASE("who is not believed is refused by either end, and hears why") {
     CHECK(x.connecting.problem()->why == distrust::other_site);
     CHECK_FALSE(x.accepting.is_open());
     // Nor is it let in where it does.
-    const auto stranger = other.identity_of(site_role::node, "arm");
-    CHECK(refused(site.settings_of(stranger)) == "other_site");
+    const auto of_other_site = other.identity_of(site_role::node, "arm");
+    CHECK(refused(site.settings_of(of_other_site)) == "other_site");
   }
   SECTION("an issuer") {
     CHECK(refused(site.settings_of(site_role::issuer, "edge"))
