@@ -54,7 +54,6 @@ void ask_for_parameters(container_supervisor_pointer self,
   route_request request;
   request.text =
       message_json(parameter_change{instance, wanted->dump()}).dump();
-  request.only = parameter_change::type;
   request.from = "a client of ROS 2, by instance '" + instance + "'";
   self->request(st.router, limits::instance::parameter_request,
                 std::move(request))

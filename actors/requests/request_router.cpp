@@ -70,7 +70,7 @@ void tally(request_router_self self, const running_request& request,
 
 /// What it is about, for people who look for it.
 std::string subject_of(const json& document) {
-  for (const auto* name : {"task", "node"})
+  for (const auto* name : {"task", "node", "instance"})
     if (const auto i = document.find(name);
         i != document.end() && i->is_string())
       return i->get<std::string>();

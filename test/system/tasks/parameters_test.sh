@@ -231,6 +231,8 @@ test_ros2_sets_parameters_where_the_cell_lets_it_and_the_task_knows_them() {
   program=$(of_step pick pose .figures.use.pid)
   set_by_ros2 decimation 3 || fail "$(cat "$scratch/said" "$scratch/client.log")"
   expect "what the task says" "$(of_step pick pose .spec.parameters.decimation)" 3
+  await head '.event == "request_received" and .data.request == "parameter_change"
+    and (.data.from | test("a client of ROS 2"))' > /dev/null
   await head '.event == "parameters_changed" and .data.parameters.decimation == 3' \
     > /dev/null
   more_lines "$scratch/poses" 5
