@@ -189,6 +189,28 @@ TEST_CASE_METHOD(lossy_cell, "A place that comes to nothing is tried again",
   CHECK(node_of_a() == "right");
 }
 
+TEST_CASE_METHOD(lossy_cell,
+                 "What does not come up is tried again soon, then less often",
+                 "[abandoned_steps]") {
+  right.mood = temper::broken;
+  lose(left);
+  time.advance(31s);
+  const auto tried = right.deployments.size();
+  REQUIRE(tried >= 1);
+  time.advance(2s);
+  CHECK(right.deployments.size() > tried);
+  time.advance(5min);
+  // Once in half a minute at last.
+  const auto later = right.deployments.size();
+  time.advance(5min);
+  CHECK(right.deployments.size() - later >= 10);
+  CHECK(right.deployments.size() - later <= 21);
+  right.mood = temper::happy;
+  time.advance(limits::retry::longest);
+  CHECK(right.running.size() == 1);
+  CHECK(node_of_a() == "right");
+}
+
 TEST_CASE("Where the new place is lost, too, its fence is waited for",
           "[abandoned_steps]") {
   lossy_cell x{movable_step(60)};
