@@ -224,6 +224,8 @@ test_ros2_sets_parameters_where_the_cell_lets_it_and_the_task_knows_them() {
   use_skills_of_camera
   start_node head --coordinator --cell line --interface lo --cpu-floor 1 \
     --ros2-set-parameters
+  has_line 'warning whoever is in the network .* may set parameters' \
+    < "$scratch/head.log" || fail "no warning: $(cat "$scratch/head.log")"
   make_scenes
   pick_task 2 > "$scratch/pick.json"
   to head run "$scratch/pick.json" > "$scratch/out" 2>&1 || fail "$(cat "$scratch/out")"

@@ -82,6 +82,9 @@ void introduce(const running_node& node, const node_config& config) {
   if (const auto warning = root_warning(::geteuid(), is_kept_root());
       !warning.empty())
     spdlog::warn("{}", warning);
+  if (config.ros2_set_parameters)
+    spdlog::warn("whoever is in the network of this cell may set parameters of "
+                 "its running skills: --ros2-set-parameters");
   for (const auto& x : find_open_skills(config))
     spdlog::warn("{}; {}", printable(x.what), printable(x.remedy));
 }
