@@ -31,9 +31,11 @@ source_answered answer_of(uint64_t question, const http_call& what,
 } // namespace
 
 std::function<void(const build_fetcher_actor&, const source_question&)>
-source_asker(std::shared_ptr<io_core> io, std::string from) {
-  return [io = std::move(io), from = std::move(from)](
-             const build_fetcher_actor& whom, const source_question& question) {
+source_asker(std::shared_ptr<io_core> io, std::string from,
+             std::shared_ptr<site_identity> identity) {
+  return [io = std::move(io), from = std::move(from),
+          identity = std::move(identity)](const build_fetcher_actor& whom,
+                                          const source_question& question) {
     const auto to = parse_socket_address(question.source.address);
     if (!to) {
       source_answered answer;
@@ -47,6 +49,7 @@ source_asker(std::shared_ptr<io_core> io, std::string from) {
     what.to.address = to->address;
     what.to.port = to->port;
     what.from = from;
+    what.to.identity = identity;
     what.to.token = question.source.permit;
     what.target = question.target;
     what.timeout = question.timeout;

@@ -2,14 +2,17 @@
 
 #include "actors/builds/build_fetcher.hpp"
 #include "actors/edge/io/io_core.hpp"
+#include "actors/edge/trust/site_identity.hpp"
 
 #include <memory>
 
 namespace roscell {
 
 /// Asks sources of builds by HTTP; answers come as `source_answered`.
+/// @param identity by which it asks; null: in clear.
 /// @param from the node's own address, for which its permits are.
 std::function<void(const build_fetcher_actor&, const source_question&)>
-source_asker(std::shared_ptr<io_core> io, std::string from);
+source_asker(std::shared_ptr<io_core> io, std::string from,
+             std::shared_ptr<site_identity> identity);
 
 } // namespace roscell

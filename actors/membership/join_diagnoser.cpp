@@ -44,6 +44,7 @@ caf::result<server_probed> look(join_diagnoser_self self,
   st.addresses.emplace(question, promise);
   probe_address(
       st.config.io->core(), st.config.address, {request.address, request.port},
+      st.config.site.identity(),
       [me = join_diagnoser_actor{self}, question](server_probed found) {
         diagnosis_settled event;
         event.question = question;

@@ -2,6 +2,7 @@
 
 #include "actors/core/actor_context.hpp"
 #include "actors/edge/io/io_thread.hpp"
+#include "actors/edge/session/site_token.hpp"
 #include "messages/messages.hpp"
 
 #include <caf/typed_response_promise.hpp>
@@ -15,6 +16,7 @@ namespace roscell {
 struct join_diagnoser_config {
   io_thread* io = nullptr;
   std::string address; ///< Local IPv4 address.
+  site_secret site;
 };
 
 struct join_diagnoser_state {

@@ -4,6 +4,7 @@
 #include "actors/edge/host/interfaces.hpp"
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/edge/process/privileges.hpp"
+#include "actors/edge/trust/identity_file.hpp"
 #include "messages/failure.hpp"
 #include "messages/messages.hpp"
 #include "schemas/message_catalogue.hpp"
@@ -51,11 +52,35 @@ caf::error check_words(const node_config& config) {
   return check_words("--device", plain);
 }
 
+namespace {
+
+/// A node that has an identity is called as that says.
+caf::error take_name(node_config& config) {
+  if (config.identity_file.empty())
+    return caf::none;
+  const auto read = read_identity_file(config.identity_file);
+  if (const auto* why = std::get_if<edge_error>(&read))
+    return to_caf(*why);
+  const auto& who = std::get<own_identity>(read).who();
+  if (config.name.empty())
+    config.name = who.name;
+  if (config.name == who.name)
+    return caf::none;
+  return fail(error_code::schema_violation,
+              "the node is to be called '" + config.name
+                  + "', and its identity is of " + text_of(who),
+              "", "leave out --name, or have an identity made for that name");
+}
+
+} // namespace
+
 caf::error complete_config(node_config& config) {
   auto chosen = resolve_interface(config.address);
   if (auto* why = std::get_if<edge_error>(&chosen))
     return to_caf(*why);
   config.address = std::get<interface_address>(chosen).address;
+  if (auto why = take_name(config))
+    return why;
   if (config.name.empty())
     config.name = mac_node_name(config.address);
   if (config.cell.empty())

@@ -285,8 +285,8 @@ void node_builder::start_membership() {
   with.permits = parts_.edges->permits;
   with.keeper = parts_.services->keeper;
   with.diagnoser =
-      start(join_diagnoser,
-            join_diagnoser_config{parts_.edges->io.get(), config.address});
+      start(join_diagnoser, join_diagnoser_config{parts_.edges->io.get(),
+                                                  config.address, data_.site});
   const auto how = membership_setup();
   auto member = start(membership, parts_.context, with, how);
   parts_.services->membership = member;
@@ -337,7 +337,8 @@ void node_builder::start_builds() {
   fetching.context = parts_.context;
   fetching.node = config.name;
   fetching.keeper = parts_.services->keeper;
-  fetching.ask = source_asker(parts_.edges->io->core(), config.address);
+  fetching.ask = source_asker(parts_.edges->io->core(), config.address,
+                              data_.site.identity());
   fetcher_ = start(build_fetcher, fetching);
 }
 

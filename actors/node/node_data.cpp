@@ -121,12 +121,28 @@ caf::error open_database(const node_config& config, node_data& data) {
 }
 
 caf::error make_identity(node_data& data) {
-  data.identity.uuid = make_uuid();
+  const auto& site = data.site.identity();
+  data.identity.uuid = site ? site->who().uuid : make_uuid();
   data.is_new = data.put_aside.empty();
   if (auto why =
           data.database->put("identity", "node", json(data.identity).dump()))
     return to_caf(*why);
   return caf::none;
+}
+
+/// A node that was there before keeps its UUID, and its identity has to say it.
+caf::error check_identity(const node_config& config, const node_data& data) {
+  const auto& site = data.site.identity();
+  if (!site || site->who().uuid == data.identity.uuid)
+    return caf::none;
+  return fail(error_code::schema_violation,
+              "the node in '" + config.data_dir.string() + "' has the UUID "
+                  + data.identity.uuid + ", and its identity is of "
+                  + text_of(site->who()) + " with UUID " + site->who().uuid,
+              "",
+              std::string{"make one for it: roscell site issue "}
+                  + to_word(site->who().role) + " " + site->who().name
+                  + " --uuid " + data.identity.uuid);
 }
 
 /// `existed`: the database was there before this start.
@@ -143,7 +159,7 @@ caf::error load_identity(const node_config& config, node_data& data,
     return to_caf(
         damaged_store(database_of(config), "it does not say who the node is"));
   data.identity = std::move(*known);
-  return caf::none;
+  return check_identity(config, data);
 }
 
 /// A cell has a UUID of its own from its first start on; its members follow it.
@@ -281,11 +297,12 @@ caf::expected<node_data> open_node_data(const node_config& config) {
       !config.new_identity && fs::exists(database_of(config), ignored);
   if (auto why = open_database(config, data))
     return why;
+  // Who a new node is, its identity says.
+  if (auto why = load_tokens(config, data))
+    return why;
   if (auto why = load_self(config, data, existed))
     return why;
   if (auto why = load_tables(config, data))
-    return why;
-  if (auto why = load_tokens(config, data))
     return why;
   data.strays = find_strays(config.data_dir / "instances", data.instances);
   return data;

@@ -5,6 +5,7 @@
 #include "actors/edge/http/http_target.hpp"
 #include "actors/node/cell_claim.hpp"
 #include "actors/node/limits.hpp"
+#include "actors/node/refusal_pace.hpp"
 #include "actors/session/wire_session.hpp"
 #include "dds/server_addresses.hpp"
 #include "messages/event_kinds.hpp"
@@ -23,8 +24,26 @@ std::string socket_path(const node_config& config) {
       .string();
 }
 
+std::string again(size_t times) {
+  return times > 1 ? ", and so " + std::to_string(times - 1)
+                         + " times since the last such event"
+                   : std::string{};
+}
+
+std::function<void(const std::string&, const distrusted&)>
+report_distrust(const actor_context& context) {
+  const auto pace = std::make_shared<refusal_pace>();
+  return [context, pace](const std::string& address, const distrusted& why) {
+    const auto times = pace->count(address, std::chrono::steady_clock::now());
+    if (times > 0)
+      context.publish_event(events::session_refused, address,
+                            {{"code", error_code::unauthorized},
+                             {"message", why.text + again(times)}});
+  };
+}
+
 caf::error open_http(const node_config& config, const node_data& data,
-                     node_edges& edges) {
+                     const actor_context& context, node_edges& edges) {
   http_server_options options;
   options.address = config.address;
   options.port = config.http_port;
@@ -41,6 +60,8 @@ caf::error open_http(const node_config& config, const node_data& data,
                                               const std::string& from) {
     return permits->allows(path, token, from);
   };
+  options.identity = data.site.identity();
+  options.on_distrusted = report_distrust(context);
   heartbeat_socket_options heartbeats;
   heartbeats.site = data.site;
   auto opened =
@@ -117,7 +138,7 @@ open_edges(const node_config& config, const node_data& data,
       },
       data.is_new ? number_reserve::former_lives::few
                   : number_reserve::former_lives::many);
-  if (auto why = open_http(config, data, *edges))
+  if (auto why = open_http(config, data, context, *edges))
     return why;
   if (!config.coordinator)
     return edges;

@@ -107,7 +107,9 @@ caf::result<reach_report> look(reach_prober_self self,
   const auto promise = self->make_response_promise<reach_report>();
   st.questions.emplace(question, promise);
   try_to_reach(
-      {st.config.io->core(), st.config.address, reach_key(token)}, query.goals,
+      {st.config.io->core(), st.config.address, reach_key(token),
+       st.config.site.identity()},
+      query.goals,
       [me = reach_prober_actor{self}, question](std::vector<reach_row> rows) {
         caf::anon_send(me, reach_settled{question, std::move(rows)});
       });

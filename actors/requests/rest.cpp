@@ -3,6 +3,7 @@
 #include "actors/core/answer_limits.hpp"
 #include "actors/core/shifted_times.hpp"
 #include "actors/core/watching.hpp"
+#include "actors/requests/access/role_table.hpp"
 #include "actors/requests/metrics/scrape.hpp"
 #include "actors/requests/rest_routes.hpp"
 #include "actors/requests/rest_streams.hpp"
@@ -16,6 +17,9 @@
 namespace roscell {
 
 namespace {
+
+/// Who it is, is known; he may not.
+constexpr int status_forbidden = 403;
 
 failure node_ended() {
   return {error_code::unreachable,
@@ -126,7 +130,9 @@ http_handler make_rest_handler(caf::actor_system& system,
                                const rest_services& services) {
   return [&system, services](const http_request& request,
                              const responder& answer) {
-    if (const auto* page = page_for(services, request))
+    if (const auto why = refuse_by_role(request))
+      answer.error(status_forbidden, why->code, why->message, why->hint);
+    else if (const auto* page = page_for(services, request))
       answer.reply(200, std::string{page->content_type},
                    std::string{page->body});
     else

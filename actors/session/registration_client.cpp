@@ -58,13 +58,16 @@ node_answered to_message(uint64_t call, const http_call& what,
 }
 
 void send_to_node(registration_client_self self, uint64_t call,
-                  const std::string& address, const std::string& method,
-                  const std::string& target, const std::string& body) {
+                  const std::string& address, const std::string& uuid,
+                  const std::string& method, const std::string& target,
+                  const std::string& body) {
   auto& st = self->state;
   const auto to = *parse_socket_address(address);
   http_call what;
   what.to.address = to.address;
   what.to.port = to.port;
+  what.to.identity = st.config.site.identity();
+  what.to.uuid = uuid;
   what.method = method;
   what.target = target;
   what.body = body;
@@ -128,8 +131,8 @@ void on_challenge(registration_client_self self, uint64_t call,
   order.nonce = challenge.nonce;
   order.proof = prove(order_of(order), st.config.site.text());
   x.proven = true;
-  send_to_node(self, call, x.request.address, "POST", registration_path,
-               message_json(order).dump());
+  send_to_node(self, call, x.request.address, order.uuid, "POST",
+               registration_path, message_json(order).dump());
 }
 
 /// Why nobody at that address may be asked, if so.
@@ -162,8 +165,8 @@ caf::result<switch_accepted> call_node(registration_client_self self,
   const auto call = ++st.last_call;
   const auto nonce = make_nonce();
   st.calls.emplace(call, registration_call{request, nonce, false, promise});
-  send_to_node(self, call, request.address, "GET", question_target(st, nonce),
-               "");
+  send_to_node(self, call, request.address, request.order.uuid, "GET",
+               question_target(st, nonce), "");
   return promise;
 }
 
@@ -209,8 +212,8 @@ caf::result<status_proved> ask_status(registration_client_self self,
   const auto call = ++st.last_call;
   const auto nonce = make_nonce();
   st.questions.emplace(call, status_call{request, nonce, promise});
-  send_to_node(self, call, request.address, "GET", question_target(st, nonce),
-               "");
+  send_to_node(self, call, request.address, request.uuid, "GET",
+               question_target(st, nonce), "");
   return promise;
 }
 

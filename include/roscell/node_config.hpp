@@ -43,6 +43,9 @@ struct node_config {
   /// Proves the nodes of a site to each other. Empty: the one of this user on
   /// this host, which his first coordinator makes.
   std::filesystem::path site_token_file;
+  /// What the node is at a site of identities, in place of a token: see
+  /// `roscell site issue`. A new node has the name and UUID that it says.
+  std::filesystem::path identity_file;
   std::filesystem::path shim; ///< roscell-instance-shim; empty: as installed.
   /// Where process instances get cgroups: a folder of the cgroup file system,
   /// "auto" or "none".

@@ -75,6 +75,9 @@ void add_events_command(CLI::App& app, action& chosen);
 void add_logs_command(CLI::App& app, action& chosen);
 void add_exec_command(CLI::App& app, action& chosen);
 
+/// create, issue, list and revoke, below `site`.
+void add_site_command(CLI::App& app, action& chosen);
+
 /// set, list and remove, below `secret`.
 void add_secret_command(CLI::App& app, action& chosen);
 

@@ -32,13 +32,6 @@ bool has_token(const http_access& access, const http::request_header<>& x) {
          && equal_in_constant_time(bearer_token(x), access.token);
 }
 
-/// Whether the coordinator has let who asks read this path.
-bool has_permit(const http_access& access, const http::request_header<>& x,
-                const std::string& path, const std::string& from) {
-  return access.permits && x.method() == http::verb::get
-         && access.permits(path, bearer_token(x), from);
-}
-
 /// Whether the server is called as it may be, whatever the port.
 bool names_host(const http_access& access, const http::request_header<>& x) {
   const auto value = value_of(x, http::field::host);
@@ -48,16 +41,31 @@ bool names_host(const http_access& access, const http::request_header<>& x) {
 
 /// Whether a browser says that a page of somebody else asks. It may lead here,
 /// as a link does, but not have something done.
-bool is_of_foreign_page(const http::request_header<>& x) {
+bool is_of_foreign_page(const http::request_header<>& x,
+                        const std::string& scheme = "http://") {
   const auto origin = value_of(x, http::field::origin);
   if (!origin.empty()
-      && origin != "http://" + std::string{value_of(x, http::field::host)})
+      && origin != scheme + std::string{value_of(x, http::field::host)})
     return true;
   const auto site = x["Sec-Fetch-Site"];
   return x.method() != http::verb::get && site == "cross-site";
 }
 
 } // namespace
+
+bool has_permit(const http_access& access, const http::request_header<>& x,
+                const std::string& path, const std::string& from) {
+  return access.permits && x.method() == http::verb::get
+         && access.permits(path, bearer_token(x), from);
+}
+
+std::optional<http_refusal>
+refuse_foreign_page(const http::request_header<>& x) {
+  if (!is_of_foreign_page(x, "https://"))
+    return std::nullopt;
+  return http_refusal{403, error_code::unauthorized,
+                      "a page from elsewhere may not ask this server", ""};
+}
 
 bool http_access::has_secret(const std::string& path) const {
   const auto size = path_secret.size();

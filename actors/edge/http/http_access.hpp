@@ -6,6 +6,7 @@
 #include <boost/beast/http/message.hpp>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -46,6 +47,17 @@ enum class http_caller {
   unauthenticated_peer, ///< Who asks for a public path.
   trusted,              ///< Who has shown the token or the secret.
 };
+
+/// What else lets who asks from an address read this path; the header may hold
+/// a permit of the coordinator for it.
+bool has_permit(const http_access& access,
+                const boost::beast::http::request_header<>& header,
+                const std::string& path, const std::string& from);
+
+/// Why a browser that proves itself by its own is not heard: a page of somebody
+/// else asks by it.
+std::optional<http_refusal>
+refuse_foreign_page(const boost::beast::http::request_header<>& header);
 
 /// What the header of a request for `path` tells of who asks.
 /// @param from the IP address that it comes from.

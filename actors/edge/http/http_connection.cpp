@@ -40,10 +40,17 @@ std::string_view to_view(boost::beast::string_view text) {
   return {text.data(), text.size()};
 }
 
+/// "operator anna at 10.0.0.3:40112"
+void name_peer(const identity& who, stream_socket& socket,
+               http_request& request) {
+  request.role = to_word(who.role);
+  request.from = request.role + " " + who.name + " at " + peer_name(socket);
+}
+
 } // namespace
 
 http_connection::http_connection(std::shared_ptr<http_shared> shared,
-                                 stream_socket socket, bool local)
+                                 link_socket socket, bool local)
     : shared_(std::move(shared)), socket_(std::move(socket)), local_(local),
       timer_(shared_->core->context()) {
   // nop
@@ -53,6 +60,13 @@ void http_connection::run() {
   // One that waited too long for its turn is being told so.
   if (phase_ != phase::queued)
     return;
+  if (shared_->identity && !local_)
+    prove();
+  else
+    begin_requests();
+}
+
+void http_connection::begin_requests() {
   next_request();
   limit(shared_->limits.first_byte);
   read();
@@ -86,6 +100,9 @@ void http_connection::on_time_limit() {
     return;
   if (phase_ == phase::queued)
     return refuse_crowd();
+  if (phase_ == phase::proving)
+    return on_proved(distrusted{
+        distrust::no_certificate, "its handshake took too long", {}});
   if (phase_ != phase::reading)
     return abort();
   refuse_request(408, error_code::timeout,
@@ -181,20 +198,39 @@ bool http_connection::on_header() {
     return false;
   }
   if (local_)
-    return check_body(body_bytes_for(target->path, shared_->limits));
+    return admit(target->path);
+  if (peer_)
+    return admit_peer(target->path);
   const auto caller = find_caller(shared_->access, request, target->path,
-                                  peer_of(socket_).address);
+                                  peer_of(socket_.bare()).address);
   if (const auto* why = std::get_if<http_refusal>(&caller)) {
     refuse_request(why->status, why->code, why->message, why->hint);
     return false;
   }
   if (std::get<http_caller>(caller) == http_caller::unauthenticated_peer)
     return check_body(shared_->limits.public_body_bytes);
-  if (!shared_->table.promote(this, http_group::trusted)) {
+  return admit(target->path);
+}
+
+/// What he may, the handler knows by his role.
+bool http_connection::admit_peer(const std::string& path) {
+  const auto& request = parser_->get();
+  if (const auto why = refuse_foreign_page(request)) {
+    refuse_request(why->status, why->code, why->message, why->hint);
+    return false;
+  }
+  permitted_ = has_permit(shared_->access, request, path,
+                          peer_of(socket_.bare()).address);
+  return admit(path);
+}
+
+/// Whoever asks is trusted with a request.
+bool http_connection::admit(const std::string& path) {
+  if (!local_ && !shared_->table.promote(this, http_group::trusted)) {
     refuse_crowd();
     return false;
   }
-  return check_body(body_bytes_for(target->path, shared_->limits));
+  return check_body(body_bytes_for(path, shared_->limits));
 }
 
 /// The reply has the form of one to a request, but none need have been read.
@@ -246,8 +282,11 @@ void http_connection::dispatch() {
   request.body = std::move(message.body());
   request.accept = std::string{to_view(message[http::field::accept])};
   request.local = local_;
-  if (request.method == "POST")
-    request.from = peer_name(socket_);
+  request.permitted = permitted_;
+  if (peer_)
+    name_peer(*peer_, socket_.bare(), request);
+  else if (request.method == "POST")
+    request.from = peer_name(socket_.bare());
   responder answer{make_sink(shared_, weak_from_this())};
   shared_->core->guarded(
       [&] { shared_->handler(std::move(request), std::move(answer)); });
@@ -315,8 +354,7 @@ void http_connection::on_written(error ec) {
 /// way, so the client goes first.
 void http_connection::linger() {
   phase_ = phase::lingering;
-  error ignored;
-  socket_.shutdown(stream_socket::shutdown_send, ignored);
+  socket_.shut_sending();
   limit(shared_->limits.grace);
   read();
 }
@@ -334,6 +372,7 @@ void http_connection::abort() {
   const auto self = shared_from_this();
   timer_.cancel();
   close_now(socket_);
+  shared_->hands.leave(std::exchange(hands_, 0));
   shared_->table.remove(this);
   if (const auto stream = std::exchange(stream_, nullptr))
     stream->abort();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actors/edge/http/handshake_queue.hpp"
 #include "actors/edge/http/http_shared.hpp"
 #include "actors/edge/http/http_stream_connection.hpp"
 #include "actors/edge/io/sockets.hpp"
@@ -24,7 +25,7 @@ class http_connection : public std::enable_shared_from_this<http_connection> {
 public:
   using clock = std::chrono::steady_clock;
 
-  http_connection(std::shared_ptr<http_shared> shared, stream_socket socket,
+  http_connection(std::shared_ptr<http_shared> shared, link_socket socket,
                   bool local);
 
   void run();
@@ -56,6 +57,7 @@ private:
 
   enum class phase {
     queued,      ///< For its turn; nothing is read.
+    proving,     ///< Shakes hands, or waits for its turn to.
     waiting,     ///< For the first byte of a request.
     reading,     ///< A request.
     continuing,  ///< Tells the client that the body may come.
@@ -66,6 +68,12 @@ private:
     closed,
   };
 
+  void prove();
+  void shake_hands();
+  void on_proved(const std::optional<distrusted>& why);
+  void begin_requests();
+  bool admit(const std::string& path);
+  bool admit_peer(const std::string& path);
   void next_request();
   void limit(std::chrono::milliseconds time);
   void on_time_limit();
@@ -85,7 +93,7 @@ private:
                       std::string_view hint = {});
 
   std::shared_ptr<http_shared> shared_;
-  stream_socket socket_;
+  link_socket socket_;
   const bool local_;
   boost::asio::steady_timer timer_;
   boost::beast::flat_buffer incoming_;
@@ -98,6 +106,9 @@ private:
   phase phase_ = phase::queued;
   bool header_done_ = false;
   bool last_reply_ = false;
+  handshake_queue::ticket hands_ = 0; ///< 0: none.
+  bool permitted_ = false;            ///< To read the path that is asked for.
+  std::optional<identity> peer_;      ///< Who has proved it by TLS.
   size_t lingered_bytes_ = 0;
   size_t body_limit_ = 0; ///< Of the request that is being read.
 };

@@ -170,6 +170,8 @@ http_server::start(io_thread& io, http_server_options options) {
                     std::move(options.hosts), std::move(options.public_paths),
                     std::move(options.permits)};
   shared->handler = std::move(options.handler);
+  shared->identity = std::move(options.identity);
+  shared->on_distrusted = std::move(options.on_distrusted);
   return std::make_unique<server_handle>(
       std::move(shared), std::move(options.socket_path), tcp, local);
 }

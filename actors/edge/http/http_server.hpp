@@ -5,6 +5,7 @@
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/session/heartbeat_socket.hpp"
 #include "actors/edge/session/session_link.hpp"
+#include "actors/edge/trust/site_identity.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -36,6 +37,14 @@ struct http_server_options {
       permits;
   http_limits limits;
   http_handler handler;
+  /// What this server is at its site. With it TCP speaks TLS 1.3 alone, who
+  /// shows no identity of the site gets nothing, and no token counts; null: TCP
+  /// is plain.
+  std::shared_ptr<site_identity> identity;
+  /// Called on the io thread when a handshake has come to nothing, with the
+  /// address of the peer. May be empty.
+  std::function<void(const std::string& address, const distrusted&)>
+      on_distrusted;
 };
 
 /// HTTP/1.1 on one TCP port and one Unix socket, with WebSocket sessions at

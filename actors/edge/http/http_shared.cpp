@@ -286,8 +286,8 @@ void http_listener::admit(int fd) {
   }
   if (!local_)
     send_at_once(socket);
-  auto connection =
-      std::make_shared<http_connection>(shared_, std::move(socket), local_);
+  auto connection = std::make_shared<http_connection>(
+      shared_, link_socket{shared_->core, std::move(socket)}, local_);
   if (has_room)
     return shared_->table.add(connection, group);
   // It reads the answer although it has not written its request yet.

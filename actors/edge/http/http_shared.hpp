@@ -1,11 +1,14 @@
 #pragma once
 
+#include "actors/edge/http/handshake_queue.hpp"
 #include "actors/edge/http/http_access.hpp"
 #include "actors/edge/http/http_types.hpp"
 #include "actors/edge/http/limits.hpp"
 #include "actors/edge/io/io_core.hpp"
 #include "actors/edge/io/sockets.hpp"
 #include "actors/edge/session/session_link.hpp"
+#include "actors/edge/trust/limits.hpp"
+#include "actors/edge/trust/site_identity.hpp"
 
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -99,6 +102,10 @@ struct http_shared {
   const http_limits limits;
   http_access access;
   http_handler handler;
+  std::shared_ptr<site_identity> identity; ///< Null: TCP is plain.
+  std::function<void(const std::string&, const distrusted&)> on_distrusted;
+  handshake_queue hands{limits::trust::handshakes,
+                        limits::trust::handshakes_of_one};
   std::shared_ptr<const session_acceptor> sessions; ///< Null: none are taken.
   size_t open_sessions = 0;
   bool draining = false;         ///< Every reply is the last one.

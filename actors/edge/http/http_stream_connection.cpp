@@ -79,14 +79,14 @@ stream_connection::make_handle(std::shared_ptr<stream_connection> stream) {
   return std::make_shared<stream_handle>(std::move(stream));
 }
 
-void stream_connection::begin(stream_socket socket, bool chunked,
+void stream_connection::begin(link_socket socket, bool chunked,
                               std::function<void()> on_over) {
   if (over_)
     return on_over();
-  socket_ = std::move(socket);
+  socket_.emplace(std::move(socket));
   chunked_ = chunked;
   on_over_ = std::move(on_over);
-  keep_alive(*socket_);
+  keep_alive(socket_->bare());
   put(head(content_type_, chunked));
   for (const auto& chunk : std::exchange(early_, {}))
     append(chunk);
@@ -187,8 +187,7 @@ void stream_connection::flush() {
                              });
   } else if (last_ && !std::exchange(shut_down_, true)) {
     // The client closes when it has read all; `watch` sees that.
-    error ignored;
-    socket_->shutdown(stream_socket::shutdown_send, ignored);
+    socket_->shut_sending();
     limit(limits_.grace);
   }
 }

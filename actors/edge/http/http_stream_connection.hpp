@@ -4,6 +4,7 @@
 #include "actors/edge/http/limits.hpp"
 #include "actors/edge/io/io_core.hpp"
 #include "actors/edge/io/sockets.hpp"
+#include "actors/edge/trust/link_socket.hpp"
 
 #include <boost/asio/steady_timer.hpp>
 
@@ -32,7 +33,7 @@ public:
 
   /// Takes the socket and begins. `chunked` as HTTP/1.1 has it; `on_over` is
   /// called once when the socket is closed.
-  void begin(stream_socket socket, bool chunked, std::function<void()> on_over);
+  void begin(link_socket socket, bool chunked, std::function<void()> on_over);
 
   bool write(std::string chunk);
   void close();
@@ -61,7 +62,7 @@ private:
   std::shared_ptr<io_core> core_;
   http_limits limits_;
   std::string content_type_;
-  std::optional<stream_socket> socket_;
+  std::optional<link_socket> socket_;
   /// What was asked for before there was a socket.
   std::vector<std::string> early_;
   bool finish_early_ = false;

@@ -21,6 +21,9 @@ struct http_request {
   std::string accept; ///< What kinds of reply the client takes.
   bool local = false; ///< It came by the Unix socket.
   std::string from;   ///< Who asks, for people: "root", "10.0.0.3:40112".
+  std::string role; ///< At the site, as his identity says; empty: he has none.
+  /// What he shows lets him read this path whatever his role is.
+  bool permitted = false;
 };
 
 struct http_reply {

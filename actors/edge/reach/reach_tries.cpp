@@ -53,7 +53,7 @@ struct reach_try {
 void try_session(const reach_try& x) {
   using clock = std::chrono::steady_clock;
   ask_for_hello(
-      x.setup.core, x.to,
+      x.setup.core, x.to, x.setup.identity,
       [settle = x.settles(), begin = clock::now()](const probed_port& found) {
         const std::chrono::duration<double, std::milli> span =
             clock::now() - begin;

@@ -16,6 +16,7 @@ struct reach_setup {
   std::shared_ptr<io_core> core;
   std::string address; ///< Local, dotted.
   digest key{};
+  std::shared_ptr<site_identity> identity{}; ///< Null: it asks in clear.
 };
 
 /// Tries every way to every goal, all at once. `done` is called once, on the io

@@ -71,10 +71,12 @@ probed_port to_port(uint16_t port, const http_outcome& outcome) {
 
 void ask_for_hello(const std::shared_ptr<io_core>& core,
                    const socket_address& node,
+                   const std::shared_ptr<site_identity>& identity,
                    std::function<void(probed_port)> done) {
   http_call what;
   what.to.address = node.address;
   what.to.port = node.port;
+  what.to.identity = identity;
   what.target = hello_path;
   what.timeout = limits::membership::probed_port;
   call_http(core, what,
@@ -85,6 +87,7 @@ void ask_for_hello(const std::shared_ptr<io_core>& core,
 void probe_address(const std::shared_ptr<io_core>& core,
                    const std::string& local_address,
                    const socket_address& server,
+                   const std::shared_ptr<site_identity>& identity,
                    std::function<void(server_probed)> done) {
   const auto all = std::make_shared<address_probing>();
   all->done = std::move(done);
@@ -94,10 +97,11 @@ void probe_address(const std::shared_ptr<io_core>& core,
   all->result.tcp.resize(ports.size());
   all->open = ports.size() + 1;
   for (size_t i = 0; i < ports.size(); ++i)
-    ask_for_hello(core, {server.address, ports[i]}, [all, i](probed_port x) {
-      all->result.tcp[i] = std::move(x);
-      all->finish_one();
-    });
+    ask_for_hello(core, {server.address, ports[i]}, identity,
+                  [all, i](probed_port x) {
+                    all->result.tcp[i] = std::move(x);
+                    all->finish_one();
+                  });
   ask_discovery_port(core, local_address, server,
                      limits::membership::probed_port,
                      [all](const udp_answer& x) {

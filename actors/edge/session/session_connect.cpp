@@ -25,12 +25,9 @@ public:
                   joiner_identity identity, const site_secret& site,
                   session_options options,
                   std::function<void(session_result)> callback)
-      : session_dialog(core, stream_socket{core->context()},
-                       std::move(options)),
+      : session_dialog(core, link_socket{core}, std::move(options)),
         target_(std::move(target)), callback_(std::move(callback)),
-        handshake_(std::move(identity), site.text(), target_.expected_cell) {
-    handshake_.expect_uuid(target_.expected_uuid);
-  }
+        own_(std::move(identity)), site_(site) {}
 
   void run() {
     begin();
@@ -39,8 +36,8 @@ public:
     if (ec)
       return fail({error_code::unreachable,
                    "'" + target_.address + "' is not an IPv4 address", ""});
-    open_tcp(stream().next_layer());
-    stream().next_layer().async_connect(
+    open_tcp(stream().next_layer().bare());
+    stream().next_layer().bare().async_connect(
         ip::tcp::endpoint{address, target_.port},
         [self = self_as<session_connect>()](error connect_ec) {
           if (!self->over())
@@ -50,16 +47,23 @@ public:
 
 protected:
   handshake_step receive(std::string_view frame) override {
-    return handshake_.receive(frame);
+    auto step = handshake_->receive(frame);
+    const auto who = proved_peer();
+    if (step.failure || !who)
+      return step;
+    const auto& said = handshake_->peer();
+    if (auto why = mismatch(*who, said.node, said.uuid))
+      return {encode(*why), false, why};
+    return step;
   }
 
   void on_established(websocket&& stream) override {
-    const auto& challenge = handshake_.peer();
+    const auto& challenge = handshake_->peer();
     established_session session;
     session.peer = {challenge.node,       challenge.uuid, challenge.version,
                     target_.address,      target_.port,   challenge.cell,
                     challenge.incarnation};
-    session.agreement = handshake_.agreement();
+    session.agreement = handshake_->agreement();
     session.ahead_ms = ahead_ms();
     session.link =
         websocket_link::make(core(), std::move(stream), options(), {});
@@ -76,7 +80,34 @@ private:
       return fail(
           {error_code::unreachable,
            "cannot connect to " + name_of(target_) + ": " + ec.message(), ""});
-    tune_for_session(stream().next_layer(), options().user_timeout);
+    tune_for_session(stream().next_layer().bare(), options().user_timeout);
+    const auto identity = site_.identity();
+    if (!identity)
+      return upgrade(site_.text());
+    stream().next_layer().secure(
+        identity, tls_engine::role::connects,
+        [self = self_as<session_connect>()](const auto& why) {
+          if (!self->over())
+            self->on_secured(why);
+        });
+  }
+
+  void on_secured(const std::optional<distrusted>& why) {
+    const auto who = proved_peer();
+    if (!why && who && who->role == site_role::coordinator)
+      return upgrade(shared_secret());
+    fail({error_code::unauthorized,
+          name_of(target_) + " is not believed: "
+              + (why   ? why->text
+                 : who ? text_of(*who) + " is no coordinator"
+                       : "it shows no certificate"),
+          why ? why->hint : std::string{}});
+  }
+
+  /// @param secret which both ends know.
+  void upgrade(const std::string& secret) {
+    handshake_.emplace(own_, secret, target_.expected_cell);
+    handshake_->expect_uuid(target_.expected_uuid);
     stream().async_handshake(
         response_, name_of(target_), std::string{session_path},
         [self = self_as<session_connect>()](error upgrade_ec) {
@@ -88,7 +119,7 @@ private:
   void on_upgraded(error ec) {
     if (!ec) {
       hear_time(response_);
-      return exchange(handshake_.hello());
+      return exchange(handshake_->hello());
     }
     if (ec == ws::error::upgrade_declined)
       return fail(declined());
@@ -112,7 +143,9 @@ private:
 
   session_target target_;
   std::function<void(session_result)> callback_;
-  joiner_handshake handshake_;
+  const joiner_identity own_;
+  const site_secret site_;
+  std::optional<joiner_handshake> handshake_; ///< Once there is a secret.
   ws::response_type response_;
 };
 

@@ -27,7 +27,7 @@ constexpr int64_t latest_time_ms = 253'402'300'799'000;
 } // namespace
 
 session_dialog::session_dialog(std::shared_ptr<io_core> core,
-                               stream_socket socket, session_options options)
+                               link_socket socket, session_options options)
     : core_(std::move(core)), options_(std::move(options)),
       stream_(session_socket{std::move(socket)}), timer_(core_->context()) {
   stream_.next_layer().linger_time = options_.close_timeout;
@@ -36,6 +36,31 @@ session_dialog::session_dialog(std::shared_ptr<io_core> core,
   stream_.set_option(ws::stream_base::decorator([](auto& message) {
     message.set(time_header, std::to_string(node_time_ms()));
   }));
+}
+
+std::string session_dialog::shared_secret() {
+  const auto* tls = stream_.next_layer().tls();
+  return tls == nullptr ? std::string{}
+                        : to_hex(tls->exported("EXPORTER-roscell-session"));
+}
+
+std::optional<identity> session_dialog::proved_peer() {
+  const auto* tls = stream_.next_layer().tls();
+  return tls == nullptr ? std::nullopt : tls->peer();
+}
+
+std::optional<edge_error> mismatch(const identity& proved,
+                                   const std::string& node,
+                                   const std::string& uuid) {
+  const bool is_machine =
+      proved.role == site_role::node || proved.role == site_role::coordinator;
+  if (is_machine && proved.name == node && proved.uuid == uuid)
+    return std::nullopt;
+  return edge_error{error_code::unauthorized,
+                    "who calls itself node '" + node + "' with UUID " + uuid
+                        + " has the identity of " + text_of(proved)
+                        + " with UUID " + proved.uuid,
+                    "`roscell site issue` makes one for it"};
 }
 
 void session_dialog::hear_time(const boost::beast::http::fields& said) {
@@ -161,14 +186,15 @@ bool session_dialog::report_once() {
 }
 
 session_accept::session_accept(std::shared_ptr<io_core> core,
-                               stream_socket socket,
+                               link_socket socket,
                                std::shared_ptr<const session_acceptor> acceptor,
                                hooks reported)
     : session_dialog(std::move(core), std::move(socket), acceptor->options),
       acceptor_(std::move(acceptor)), hooks_(std::move(reported)),
-      peer_(peer_of(stream().next_layer())),
-      handshake_(acceptor_->identity, acceptor_->site.text()) {
-  tune_for_session(stream().next_layer(), options().user_timeout);
+      peer_(peer_of(stream().next_layer().bare())),
+      handshake_(acceptor_->identity,
+                 proved_peer() ? shared_secret() : acceptor_->site.text()) {
+  tune_for_session(stream().next_layer().bare(), options().user_timeout);
 }
 
 void session_accept::run(upgrade_request request) {
@@ -190,7 +216,20 @@ void session_accept::run(upgrade_request request) {
 }
 
 handshake_step session_accept::receive(std::string_view frame) {
-  return handshake_.receive(frame);
+  auto step = handshake_.receive(frame);
+  const auto who = proved_peer();
+  if (step.failure || !who)
+    return step;
+  const auto& said = handshake_.peer();
+  auto why = mismatch(*who, said.node, said.uuid);
+  if (!why && said.role == coordinator_role
+      && who->role != site_role::coordinator)
+    why = edge_error{error_code::unauthorized,
+                     text_of(*who) + " coordinates no cell, by its identity",
+                     "`roscell site issue coordinator` makes one that does"};
+  if (why)
+    return {encode(*why), false, why};
+  return step;
 }
 
 void session_accept::on_established(websocket&& stream) {

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace roscell {
@@ -19,7 +20,7 @@ class session_dialog : public io_component,
 public:
   using error = boost::system::error_code;
 
-  session_dialog(std::shared_ptr<io_core> core, stream_socket socket,
+  session_dialog(std::shared_ptr<io_core> core, link_socket socket,
                  session_options options);
 
   /// Ends it at once with an error of code `timeout`.
@@ -30,6 +31,14 @@ public:
 protected:
   /// Starts the clock and registers with the loop. Called first.
   void begin();
+
+  /// What both ends of this connection know and nobody else: they prove by it
+  /// that they mean this one, and make the keys of heartbeats of it. Empty: it
+  /// is plain.
+  std::string shared_secret();
+
+  /// Whose it is at the other end, as TLS has proved; none: it is plain.
+  std::optional<identity> proved_peer();
 
   /// The WebSocket is open: sends `first` if there is one, then takes turns.
   void exchange(std::string first);
@@ -94,6 +103,12 @@ private:
   int64_t ahead_ms_ = 0;
 };
 
+/// Why somebody is not whom the certificate speaks of that he has shown; none:
+/// he is.
+std::optional<edge_error> mismatch(const identity& proved,
+                                   const std::string& node,
+                                   const std::string& uuid);
+
 /// INTERNAL to this folder: the acceptor's side, from a request that asked
 /// for a WebSocket.
 class session_accept : public session_dialog {
@@ -109,7 +124,7 @@ public:
     std::function<void()> on_gone;
   };
 
-  session_accept(std::shared_ptr<io_core> core, stream_socket socket,
+  session_accept(std::shared_ptr<io_core> core, link_socket socket,
                  std::shared_ptr<const session_acceptor> acceptor,
                  hooks reported);
 

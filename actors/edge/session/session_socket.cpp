@@ -21,8 +21,7 @@ public:
   }
 
   void run() {
-    error ignored;
-    socket_.shutdown(stream_socket::shutdown_send, ignored);
+    socket_.shut_sending();
     timer_.async_wait([self = shared_from_this()](error ec) {
       if (!ec && self->done_)
         close_now(self->socket_);

@@ -115,6 +115,16 @@ site_secret site_secret::in_file(std::filesystem::path file) {
   return site_secret{std::make_shared<keeper>(std::move(file))};
 }
 
+site_secret site_secret::of_identity(std::shared_ptr<site_identity> identity) {
+  site_secret result{"site " + identity->site_digest()};
+  result.identity_ = std::move(identity);
+  return result;
+}
+
+const std::shared_ptr<site_identity>& site_secret::identity() const {
+  return identity_;
+}
+
 const std::filesystem::path& site_secret::file() const {
   return keeper_->file();
 }
@@ -219,7 +229,7 @@ edge_error unreadable(const fs::path& file) {
           site_token_hint(file)};
 }
 
-std::optional<edge_error> distrusted(const fs::path& file) {
+std::optional<edge_error> refuse_open_file(const fs::path& file) {
   auto fault = who_may_change(file);
   if (fault.empty())
     fault = who_may_replace(file);
@@ -255,7 +265,7 @@ edge_result<std::string> read_site_token(const fs::path& file) {
   const auto text = read_small_file(file, limits::token::most_bytes);
   if (!text)
     return unreadable(file);
-  if (auto why = distrusted(file))
+  if (auto why = refuse_open_file(file))
     return *why;
   edge_result<std::string> token = without_space(*text);
   if (std::get<std::string>(token).size() >= limits::token::least_site_bytes)

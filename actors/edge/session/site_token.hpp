@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/io/edge_error.hpp"
+#include "actors/edge/trust/site_identity.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -24,6 +25,14 @@ public:
 
   static site_secret in_file(std::filesystem::path file);
 
+  /// One who has an identity, and no token: connections prove who is who. What
+  /// else is proved has a text that all of the site know, and that is worth
+  /// something inside of such connections only.
+  static site_secret of_identity(std::shared_ptr<site_identity> identity);
+
+  /// Null: the token proves who is of the site.
+  const std::shared_ptr<site_identity>& identity() const;
+
   /// Where it is; empty: in no file.
   const std::filesystem::path& file() const;
 
@@ -42,6 +51,7 @@ private:
   explicit site_secret(std::shared_ptr<keeper> x);
 
   std::shared_ptr<keeper> keeper_;
+  std::shared_ptr<site_identity> identity_;
 };
 
 // The file of the site token that all nodes of one user on one host share,

@@ -4,6 +4,7 @@
 #include "actors/edge/io/sockets.hpp"
 #include "actors/edge/session/limits.hpp"
 #include "actors/edge/session/session_link.hpp"
+#include "actors/edge/trust/link_socket.hpp"
 
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
@@ -24,10 +25,10 @@
 /// close, without a time limit; this socket does not let it wait for long.
 namespace roscell {
 
-class session_socket : public stream_socket {
+class session_socket : public link_socket {
 public:
-  explicit session_socket(stream_socket&& socket)
-      : stream_socket(std::move(socket)) {
+  explicit session_socket(link_socket&& socket)
+      : link_socket(std::move(socket)) {
     // nop
   }
 
@@ -52,10 +53,11 @@ void async_teardown(boost::beast::role_type, session_socket& socket,
 
 inline void teardown(boost::beast::role_type, session_socket& socket,
                      boost::system::error_code& ec) {
-  socket.close(ec);
+  socket.close();
+  ec = {};
 }
 
-/// INTERNAL to this folder: WebSocket without compression, over TCP.
+/// INTERNAL to this folder: WebSocket without compression, over TCP or TLS.
 using websocket = boost::beast::websocket::stream<session_socket, false>;
 
 /// The machinery of a session_link. Everything but `send`, `close` and

@@ -29,6 +29,15 @@ constexpr int64_t early_s = day_s;
 /// After its end a certificate is good for its own renewal, and nothing else.
 constexpr int64_t renewal_s = 2 * year_s;
 
+/// The thread that computes handshakes ends when it had nothing to do for so
+/// long.
+constexpr seconds idle_thread{10};
+/// Handshakes that a server has begun with at a time, in all and with one
+/// address, and for how long.
+constexpr size_t handshakes = 8;
+constexpr size_t handshakes_of_one = 2;
+constexpr seconds handshake{10};
+
 /// Invitations of a coordinator that are open at a time, and for how long.
 constexpr size_t invitations = 256;
 constexpr seconds invitation{24 * 60 * 60};

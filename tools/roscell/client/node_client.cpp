@@ -58,12 +58,14 @@ target target_of(const connection_options& options) {
 http_endpoint endpoint_of(const target& to, const connection_options& options) {
   if (to.is_local())
     return {to.socket.string(), "", 0, ""};
+  if (auto own = find_identity(options.identity_file))
+    return {"", to.host, to.port, "", std::move(own)};
   return {"", to.host, to.port, find_token(options.token_file, to)};
 }
 
 [[noreturn]] void give_up(const edge_error& why) {
   auto hint = why.hint;
-  if (why.code == error_code::unauthorized)
+  if (why.code == error_code::unauthorized && hint.empty())
     hint = "this user is not allowed to: use sudo, become a member of the "
            "socket's group, or ask over TCP with --to ADDRESS --token-file "
            "FILE";
@@ -133,6 +135,11 @@ void add_connection_options(CLI::App& command, connection_options& options) {
       .add_option("--token-file", options.token_file,
                   "Bearer token for TCP. Default: $ROSCELL_TOKEN, else, for "
                   "an address of this machine, its node's token")
+      ->option_text("FILE");
+  command
+      .add_option("--identity", options.identity_file,
+                  "Who asks over TCP, at a site of identities. Default: "
+                  "$ROSCELL_IDENTITY")
       ->option_text("FILE");
 }
 

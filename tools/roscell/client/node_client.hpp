@@ -45,6 +45,7 @@ json unless_refused(json reply, bool as_json);
 struct connection_options {
   std::string to;
   std::filesystem::path token_file;
+  std::filesystem::path identity_file;
 };
 
 /// Adds --to and --token-file.

@@ -17,6 +17,7 @@
 #include <optional>
 #include <stdexcept>
 #include <system_error>
+#include <variant>
 
 namespace roscell::cli {
 
@@ -193,6 +194,17 @@ std::string find_token(const fs::path& file, const target& to) {
     if (auto token = read_token(dir / "token"); token && !token->empty())
       return checked(*token, (dir / "token").string());
   return {};
+}
+
+std::shared_ptr<site_identity> find_identity(const fs::path& file) {
+  const auto said =
+      file.empty() ? fs::path{environment("ROSCELL_IDENTITY")} : file;
+  if (said.empty())
+    return nullptr;
+  auto read = site_identity::in_file(said);
+  if (const auto* why = std::get_if<edge_error>(&read))
+    throw command_error{exit_usage, why->message, why->hint};
+  return std::get<std::shared_ptr<site_identity>>(std::move(read));
 }
 
 std::string open_secret_warning(const fs::path& file) {

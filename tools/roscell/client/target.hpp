@@ -1,7 +1,10 @@
 #pragma once
 
+#include "actors/edge/trust/site_identity.hpp"
+
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -40,6 +43,10 @@ target default_target();
 /// if `to` is this machine, that of its node, else empty. Throws command_error
 /// if `file` cannot be read or what was found cannot be a token.
 std::string find_token(const std::filesystem::path& file, const target& to);
+
+/// Who asks over TCP: the identity in `file` if not empty, else in that of
+/// $ROSCELL_IDENTITY, else null. Throws command_error if it cannot be read.
+std::shared_ptr<site_identity> find_identity(const std::filesystem::path& file);
 
 /// That everybody on this machine can read a file that holds a secret, and the
 /// remedy. Empty if that is not so.

@@ -113,6 +113,14 @@ void add_network(CLI::App& command, node_options& options) {
                     "for root, ~/.config/roscell/site.token]");
 }
 
+void add_site(CLI::App& command, node_options& options) {
+  command
+      .add_option("--identity", options.config.identity_file,
+                  "What the node is at a site of identities, in place of a "
+                  "token: `roscell site issue` makes it")
+      ->option_text("FILE");
+}
+
 std::string names_a_cgroup(const std::string& text) {
   return text == "auto" || text == "none" || text.rfind('/', 0) == 0
              ? std::string{}
@@ -257,6 +265,7 @@ void forget_commands(CLI::App& app) {
 void add_node_options(CLI::App& command, node_options& options) {
   add_identity(command, options);
   add_network(command, options);
+  add_site(command, options);
   add_resources(command, options);
   add_files(command, options);
 }

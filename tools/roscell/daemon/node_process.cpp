@@ -78,7 +78,10 @@ void introduce(const running_node& node, const node_config& config) {
   spdlog::info("limits of instances: {}", printable(node.limits));
   spdlog::info("data directory {}, bearer token {}", config.data_dir.string(),
                node.token_file);
-  introduce_site_token(node.site_token_file);
+  if (config.identity_file.empty())
+    introduce_site_token(node.site_token_file);
+  else
+    spdlog::info("identity {}", printable(config.identity_file.string()));
   if (const auto warning = root_warning(::geteuid(), is_kept_root());
       !warning.empty())
     spdlog::warn("{}", warning);

@@ -32,10 +32,11 @@ using secret_options_ptr = std::shared_ptr<secret_options>;
 
 /// Asked before the value is, so that it is never sent on a way that others can
 /// listen to.
-void expect_this_host(const target& node) {
+void expect_this_host(const node_client& client) {
+  const auto& node = client.where();
   const auto& host = node.host;
-  if (node.is_local() || host == "localhost" || host == "::1"
-      || host.compare(0, 4, "127.") == 0)
+  if (node.is_local() || client.endpoint().identity || host == "localhost"
+      || host == "::1" || host.compare(0, 4, "127.") == 0)
     return;
   throw command_error{exit_usage,
                       "a secret is set on the host of its node only: its value "
@@ -47,7 +48,7 @@ void expect_this_host(const target& node) {
 
 int set_secret(const secret_options& options) {
   const node_client node{options.connection};
-  expect_this_host(node.where());
+  expect_this_host(node);
   const auto& name = options.names.front();
   const secret_setting request{
       name, to_base64(read_secret_value(name, options.origin))};
@@ -100,16 +101,17 @@ void add_secret_setting(CLI::App& secrets, action& chosen) {
   auto options = std::make_shared<secret_options>();
   auto* command = secrets.add_subcommand(
       "set", "Keep a value on this host's node, for steps that name it.");
-  command->footer("The value comes from standard input, or from a file; at a "
-                  "terminal it is "
-                  "asked for twice, and\nnot shown. It is never an argument, "
-                  "which all users "
-                  "of a host can read, and never sent to\nanother host. "
-                  "Instances get a new "
-                  "value with their next start.\n\n"
-                  "Examples:\n  roscell secret set broker-key\n"
-                  "  roscell secret set broker-key --file key.pem\n"
-                  "  pass show broker | roscell secret set broker-key");
+  command->footer(
+      "The value comes from standard input, or from a file; at a "
+      "terminal it is "
+      "asked for twice, and\nnot shown. It is never an argument, "
+      "which all users "
+      "of a host can read, and never sent to\nanother host in clear. "
+      "Instances get a new "
+      "value with their next start.\n\n"
+      "Examples:\n  roscell secret set broker-key\n"
+      "  roscell secret set broker-key --file key.pem\n"
+      "  pass show broker | roscell secret set broker-key");
   command->add_option("SECRET", options->names, "Its name, as steps say it")
       ->required()
       ->expected(1)

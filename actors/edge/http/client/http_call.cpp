@@ -85,6 +85,10 @@ edge_error describe_http_failure(const http_failure& why,
     return {error_code::unreachable,
             "cannot connect to " + name + ": " + text_of(why.system_error),
             "is the node running?"};
+  case http_failure::kind::distrusted:
+    return {error_code::unauthorized, name + " is not believed: " + why.reason,
+            "a node that has no identity speaks plain HTTP, and one that has "
+            "speaks TLS with its site alone"};
   case http_failure::kind::no_file:
     return {error_code::unreachable,
             "cannot read '" + what.file.string()

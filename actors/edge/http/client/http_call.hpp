@@ -3,6 +3,7 @@
 #include "actors/edge/http/http_types.hpp"
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/edge/io/io_thread.hpp"
+#include "actors/edge/trust/site_identity.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -23,6 +24,9 @@ struct http_endpoint {
   std::string address;     ///< IPv4 address; for `http_client` also a name.
   uint16_t port = 8420;
   std::string token; ///< Bearer token for TCP; may be empty.
+  /// By TCP what is said is TLS, and who asks proves to be this; null: plain.
+  std::shared_ptr<site_identity> identity{};
+  std::string uuid{}; ///< Of the node that must answer then; empty: any.
 
   /// As people call it: "ADDR:PORT", or the socket's path.
   std::string name() const;
@@ -54,6 +58,7 @@ struct http_failure {
     bad_call,      ///< It cannot be made; `reason` says why.
     no_connection, ///< `system_error` says why.
     no_file,       ///< `system_error` says why.
+    distrusted,    ///< The server is not of the site; `reason` says why.
     timeout,
     silent,   ///< The server gave no proof of life meanwhile.
     cut_off,  ///< The connection ended before the reply did.

@@ -65,7 +65,7 @@ http_reply take_reply(http::response<http::string_body>& message) {
 http_exchange::http_exchange(std::shared_ptr<io_core> core, http_call what,
                              http_callbacks calls)
     : core_(std::move(core)), what_(std::move(what)), calls_(std::move(calls)),
-      socket_(core_->context()), timer_(core_->context()) {
+      socket_(core_), timer_(core_->context()) {
   expect_reply();
 }
 
@@ -104,10 +104,11 @@ void http_exchange::limit_time() {
 void http_exchange::connect() {
   boost::asio::generic::stream_protocol::endpoint whom;
   if (what_.to.socket_path.empty()) {
-    open_tcp(socket_);
+    open_tcp(socket_.bare());
     if (!what_.from.empty()) {
       error ec;
-      socket_.bind(ip::tcp::endpoint{ip::make_address_v4(what_.from), 0}, ec);
+      socket_.bare().bind(ip::tcp::endpoint{ip::make_address_v4(what_.from), 0},
+                          ec);
       if (ec)
         return finish(
             http_failure{http_failure::kind::no_connection, {}, ec.value()});
@@ -118,10 +119,10 @@ void http_exchange::connect() {
     if (what_.to.socket_path.size() >= sizeof(sockaddr_un::sun_path))
       return finish(
           http_failure{http_failure::kind::no_connection, {}, ENAMETOOLONG});
-    open_unix(socket_);
+    open_unix(socket_.bare());
     whom = local::stream_protocol::endpoint{what_.to.socket_path};
   }
-  socket_.async_connect(whom, [self = shared_from_this()](error ec) {
+  socket_.bare().async_connect(whom, [self = shared_from_this()](error ec) {
     if (!self->over_)
       self->on_connected(ec);
   });
@@ -134,9 +135,30 @@ void http_exchange::on_connected(error ec) {
   if (!what_.file.empty() && !open_file())
     return finish(http_failure{http_failure::kind::no_file, {}, errno});
   if (what_.to.socket_path.empty()) {
-    send_at_once(socket_);
-    keep_alive(socket_);
+    send_at_once(socket_.bare());
+    keep_alive(socket_.bare());
+    if (what_.to.identity)
+      return socket_.secure(what_.to.identity, tls_engine::role::connects,
+                            [self = shared_from_this()](const auto& why) {
+                              if (!self->over_)
+                                self->on_secured(why);
+                            });
   }
+  ask();
+}
+
+void http_exchange::on_secured(const std::optional<distrusted>& why) {
+  if (why)
+    return fail(http_failure::kind::distrusted, why->text);
+  const auto who = socket_.tls()->peer();
+  if (!who || (!what_.to.uuid.empty() && who->uuid != what_.to.uuid))
+    return fail(http_failure::kind::distrusted,
+                who ? "it is " + text_of(*who) + " with UUID " + who->uuid
+                    : "it shows no certificate");
+  ask();
+}
+
+void http_exchange::ask() {
   write_head();
   // The server may refuse before it has read everything.
   read();

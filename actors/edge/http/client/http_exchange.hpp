@@ -4,6 +4,7 @@
 #include "actors/edge/io/io_core.hpp"
 #include "actors/edge/io/sockets.hpp"
 #include "actors/edge/io/unique_fd.hpp"
+#include "actors/edge/trust/link_socket.hpp"
 
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/http/parser.hpp>
@@ -49,6 +50,8 @@ private:
   void limit_time();
   void connect();
   void on_connected(error ec);
+  void on_secured(const std::optional<distrusted>& why);
+  void ask();
   bool open_file();
   std::string head() const;
   void expect_reply();
@@ -66,7 +69,7 @@ private:
   std::shared_ptr<io_core> core_;
   http_call what_;
   http_callbacks calls_;
-  stream_socket socket_;
+  link_socket socket_;
   boost::asio::steady_timer timer_;
   unique_fd file_;
   uint64_t file_bytes_ = 0;

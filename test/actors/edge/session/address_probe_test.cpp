@@ -65,7 +65,7 @@ std::unique_ptr<http_server> serve(io_thread& io, const std::string& body) {
 
 server_probed probe_server_port(io_thread& io, uint16_t port) {
   inbox<server_probed> found;
-  probe_address(io.core(), loopback, {loopback, port},
+  probe_address(io.core(), loopback, {loopback, port}, nullptr,
                 [&](server_probed x) { found.put(std::move(x)); });
   return found.take();
 }

@@ -1,0 +1,109 @@
+#include "actors/requests/access/role_table.hpp"
+
+#include "actors/edge/http/http_target.hpp"
+#include "messages/failure.hpp"
+#include "schemas/document.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <variant>
+
+namespace roscell {
+
+namespace {
+
+constexpr std::string_view requests_path = "/v1/requests";
+
+bool begins_with(std::string_view text, std::string_view beginning) {
+  return text.substr(0, beginning.size()) == beginning;
+}
+
+bool ends_with(std::string_view text, std::string_view end) {
+  return text.size() >= end.size()
+         && text.substr(text.size() - end.size()) == end;
+}
+
+/// Queries that show more than how things are: what programs have written, or
+/// that make a host work.
+constexpr std::array<std::string_view, 6> operators_queries{
+    "log_query",   "kept_logs_query",   "exec_output_query",
+    "reach_query", "examination_query", "registration_query"};
+
+bool is_for_viewers(std::string_view path) {
+  return !begins_with(path, builds_path) && path != registration_path
+         && !ends_with(path, "/logs");
+}
+
+/// What machines of the site ask each other outside of their sessions.
+bool is_for_machines(site_role role, std::string_view method,
+                     std::string_view path) {
+  if (path == registration_path)
+    return method == "GET" || role == site_role::coordinator;
+  return method == "GET" && (path == hello_path || path == "/healthz");
+}
+
+failure refusal_of(const http_request& request, std::string_view what) {
+  return {error_code::unauthorized,
+          "the role '" + request.role + "' may not ask for "
+              + std::string{what},
+          "",
+          request.role == "viewer" ? "an identity with the role 'operator' may"
+                                   : "",
+          ""};
+}
+
+/// The type that a request says; empty: it says none, and is refused for that.
+std::string type_in(const std::string& body) {
+  auto parsed = parse_document(body);
+  const auto* document = std::get_if<json>(&parsed);
+  if (document == nullptr || !document->is_object())
+    return {};
+  const auto type = document->find("type");
+  return type != document->end() && type->is_string() ? type->get<std::string>()
+                                                      : std::string{};
+}
+
+} // namespace
+
+bool may_use_path(site_role role, std::string_view method,
+                  std::string_view path) {
+  switch (role) {
+  case site_role::operating:
+    return path != registration_path || method == "GET";
+  case site_role::viewer:
+    return (method == "GET" && is_for_viewers(path)) || path == requests_path;
+  case site_role::node:
+  case site_role::coordinator:
+    return is_for_machines(role, method, path);
+  case site_role::issuer:
+    break;
+  }
+  return false;
+}
+
+bool may_request(site_role role, std::string_view type) {
+  if (role == site_role::operating)
+    return true;
+  return role == site_role::viewer && ends_with(type, "_query")
+         && std::find(operators_queries.begin(), operators_queries.end(), type)
+                == operators_queries.end();
+}
+
+std::optional<failure> refuse_by_role(const http_request& request) {
+  if (request.role.empty())
+    return std::nullopt;
+  const auto role = role_from(request.role).value_or(site_role::issuer);
+  if (!request.permitted && !may_use_path(role, request.method, request.path))
+    return refusal_of(request, request.method + " " + request.path);
+  if (request.method != "POST" || request.path != requests_path)
+    return std::nullopt;
+  if (role == site_role::operating)
+    return std::nullopt;
+  const auto type = type_in(request.body);
+  if (type.empty() || may_request(role, type))
+    return std::nullopt;
+  return refusal_of(request, "a '" + type + "'");
+}
+
+} // namespace roscell
