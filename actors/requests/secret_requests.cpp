@@ -15,10 +15,10 @@ bool begins_with(const std::string& text, std::string_view beginning) {
 
 /// Who asks by the Unix socket is a user, and a user has no port.
 bool is_of_this_host(const std::string& from) {
-  return from.find(':') == std::string::npos || begins_with(from, "127.")
+  return from.find(':') == std::string::npos
+         || begins_with(from, "127.")
          // Who has shown an identity has done so by TLS.
-         || begins_with(from, "operator ")
-         || begins_with(from, "[::1]:");
+         || begins_with(from, "operator ") || begins_with(from, "[::1]:");
 }
 
 } // namespace
