@@ -6,7 +6,7 @@ namespace roscell {
 
 void refusal_pace::forget_old(time_point now) {
   for (auto i = entries_.begin(); i != entries_.end();)
-    i = now - i->second.told >= pause ? entries_.erase(i) : std::next(i);
+    i = now - i->second.reported >= pause ? entries_.erase(i) : std::next(i);
 }
 
 size_t refusal_pace::count(const std::string& address, time_point now) {
@@ -16,14 +16,14 @@ size_t refusal_pace::count(const std::string& address, time_point now) {
       forget_old(now);
     if (entries_.size() >= most_addresses)
       return 0;
-    entries_[address].told = now;
+    entries_[address].reported = now;
     return 1;
   }
   auto& x = known->second;
   ++x.since;
-  if (now - x.told < pause)
+  if (now - x.reported < pause)
     return 0;
-  x.told = now;
+  x.reported = now;
   return std::exchange(x.since, 0);
 }
 

@@ -22,7 +22,7 @@ public:
 
 private:
   struct entry {
-    time_point told;
+    time_point reported;
     size_t since = 0;
   };
 

@@ -19,10 +19,10 @@ TEST_CASE("one refusal an address and second is told of, with how many there "
 TEST_CASE("refusals of many addresses are not all kept", "[node]") {
   refusal_pace pace;
   const refusal_pace::time_point begin{};
-  size_t told = 0;
+  size_t reported = 0;
   for (int i = 0; i < 10'000; ++i)
-    told += pace.count("10.0.0." + std::to_string(i), begin);
-  CHECK(told == refusal_pace::most_addresses);
+    reported += pace.count("10.0.0." + std::to_string(i), begin);
+  CHECK(reported == refusal_pace::most_addresses);
   CHECK(pace.count("late", begin + refusal_pace::pause) == 1);
 }
 
