@@ -251,17 +251,21 @@ caf::error load_tables(const node_config& config, node_data& data) {
   return load_records(config, data, "removed_builds", data.remains);
 }
 
+caf::error load_site(const node_config& config, node_data& data) {
+  auto site = load_site_secret(config);
+  if (!site)
+    return site.error();
+  data.site = std::move(*site);
+  return caf::none;
+}
+
 caf::error load_tokens(const node_config& config, node_data& data) {
   data.token_file = token_of(config).string();
   auto token = load_bearer_token(token_of(config));
   if (!token)
     return token.error();
   data.token = std::move(*token);
-  auto site = load_site_secret(config);
-  if (!site)
-    return site.error();
-  data.site = std::move(*site);
-  return caf::none;
+  return data.site.identity() ? caf::error{} : load_site(config, data);
 }
 
 /// Folders of programs that an earlier run has started and that no record
@@ -298,11 +302,14 @@ caf::expected<node_data> open_node_data(const node_config& config) {
   if (auto why = open_database(config, data))
     return why;
   // Who a new node is, its identity says.
-  if (auto why = load_tokens(config, data))
-    return why;
+  if (!config.identity_file.empty())
+    if (auto why = load_site(config, data))
+      return why;
   if (auto why = load_self(config, data, existed))
     return why;
   if (auto why = load_tables(config, data))
+    return why;
+  if (auto why = load_tokens(config, data))
     return why;
   data.strays = find_strays(config.data_dir / "instances", data.instances);
   return data;
