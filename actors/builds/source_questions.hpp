@@ -2,11 +2,12 @@
 
 #include "actors/builds/build_fetcher.hpp"
 #include "actors/edge/io/io_core.hpp"
-#include "actors/edge/trust/site_identity.hpp"
 
 #include <memory>
 
 namespace roscell {
+
+class site_identity;
 
 /// Asks sources of builds by HTTP; answers come as `source_answered`.
 /// @param identity by which it asks; null: in clear.

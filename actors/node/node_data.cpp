@@ -3,6 +3,7 @@
 #include "actors/core/edge_failure.hpp"
 #include "actors/edge/disk/data_folder.hpp"
 #include "actors/edge/io/crypto.hpp"
+#include "actors/edge/trust/site_identity.hpp"
 #include "messages/failure.hpp"
 #include "schemas/document.hpp"
 

@@ -3,6 +3,7 @@
 #include "actors/core/edge_failure.hpp"
 #include "actors/edge/dds/announcement.hpp"
 #include "actors/edge/http/http_target.hpp"
+#include "actors/edge/trust/site_identity.hpp"
 #include "actors/node/cell_claim.hpp"
 #include "actors/node/limits.hpp"
 #include "actors/node/refusal_pace.hpp"

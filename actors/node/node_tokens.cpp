@@ -5,6 +5,7 @@
 #include "actors/edge/io/crypto.hpp"
 #include "actors/edge/session/limits.hpp"
 #include "actors/edge/session/site_token.hpp"
+#include "actors/edge/trust/site_identity.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>

@@ -108,7 +108,7 @@ failure unproven(const std::string& address, const std::string& node,
   return {error_code::unauthorized,
           "what answers at " + address + " does not prove that it is node '"
               + node + "' with UUID " + uuid,
-          "", "has it the site token of this node?", ""};
+          "", "is it of the site of this node?", ""};
 }
 
 void on_challenge(registration_client_self self, uint64_t call,

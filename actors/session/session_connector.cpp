@@ -18,7 +18,8 @@ using session_connector_self =
 /// Why there is no session, with what this node's side can do about it.
 failure refusal_of(const edge_error& why, const site_secret& site,
                    const std::string& address) {
-  const bool distrust = why.code == error_code::unauthorized;
+  const bool distrust =
+      why.code == error_code::unauthorized && !site.identity();
   return {why.code, why.message, "",
           distrust ? site_token_hint(site.file(), address) : why.hint, ""};
 }

@@ -100,9 +100,11 @@ void http_connection::on_time_limit() {
     return;
   if (phase_ == phase::queued)
     return refuse_crowd();
-  if (phase_ == phase::proving)
-    return on_proved(distrusted{
+  if (phase_ == phase::proving) {
+    on_proved(distrusted{
         distrust::no_certificate, "its handshake took too long", {}});
+    return abort();
+  }
   if (phase_ != phase::reading)
     return abort();
   refuse_request(408, error_code::timeout,

@@ -49,7 +49,8 @@ void http_connection::on_proved(const std::optional<distrusted>& why) {
       shared_->on_distrusted(peer_of(socket_.bare()).address,
                              why.value_or(nobody));
     });
-  abort();
+  // What was said of it by TLS is on its way.
+  linger();
 }
 
 } // namespace roscell

@@ -5,7 +5,6 @@
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/session/heartbeat_socket.hpp"
 #include "actors/edge/session/session_link.hpp"
-#include "actors/edge/trust/site_identity.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -15,6 +14,9 @@
 #include <vector>
 
 namespace roscell {
+
+class site_identity;
+struct distrusted;
 
 struct http_server_options {
   std::string address = "127.0.0.1"; ///< IPv4, of this host; empty: no TCP.

@@ -2,7 +2,6 @@
 
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/io/socket_address.hpp"
-#include "actors/edge/trust/site_identity.hpp"
 #include "messages/inside/membership.hpp"
 
 #include <functional>
@@ -10,6 +9,8 @@
 #include <string>
 
 namespace roscell {
+
+class site_identity;
 
 /// Looks who is at an address where a discovery server should be: asks its UDP
 /// port, and by HTTP the TCP port of the same number and the one that nodes use

@@ -121,6 +121,8 @@ private:
       hear_time(response_);
       return exchange(handshake_->hello());
     }
+    if (auto why = refusal())
+      return fail(*why);
     if (ec == ws::error::upgrade_declined)
       return fail(declined());
     fail({error_code::unreachable,

@@ -44,6 +44,16 @@ std::string session_dialog::shared_secret() {
                         : to_hex(tls->exported("EXPORTER-roscell-session"));
 }
 
+std::optional<edge_error> session_dialog::refusal() {
+  const auto why = stream_.next_layer().refusal();
+  if (!why)
+    return std::nullopt;
+  return edge_error{error_code::unauthorized,
+                    "the identity of this node was refused: " + why->text,
+                    "the events of the other node say why; `roscell site list` "
+                    "shows which identities count"};
+}
+
 std::optional<identity> session_dialog::proved_peer() {
   const auto* tls = stream_.next_layer().tls();
   return tls == nullptr ? std::nullopt : tls->peer();
@@ -135,6 +145,8 @@ void session_dialog::conclude(const handshake_step& step) {
 }
 
 void session_dialog::fail_with(error ec) {
+  if (auto why = refusal())
+    return fail(*why);
   if (ec == ws::error::closed)
     return fail({error_code::unreachable,
                  "the peer closed the session during the handshake", ""});

@@ -40,6 +40,9 @@ protected:
   /// Whose it is at the other end, as TLS has proved; none: it is plain.
   std::optional<identity> proved_peer();
 
+  /// What the other end has against this one's identity; none: nothing so far.
+  std::optional<edge_error> refusal();
+
   /// The WebSocket is open: sends `first` if there is one, then takes turns.
   void exchange(std::string first);
 

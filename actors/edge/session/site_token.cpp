@@ -5,6 +5,7 @@
 #include "actors/edge/io/crypto.hpp"
 #include "actors/edge/io/unique_fd.hpp"
 #include "actors/edge/session/limits.hpp"
+#include "actors/edge/trust/site_identity.hpp"
 
 #include <fcntl.h>
 #include <pwd.h>

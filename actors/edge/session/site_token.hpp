@@ -1,7 +1,6 @@
 #pragma once
 
 #include "actors/edge/io/edge_error.hpp"
-#include "actors/edge/trust/site_identity.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -9,6 +8,8 @@
 #include <string>
 
 namespace roscell {
+
+class site_identity;
 
 /// The token that proves nodes of one site to each other, as it is now: its
 /// file is looked at each time, so a node learns of a token that is made,

@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <exception>
+#include <system_error>
 #include <utility>
 
 namespace roscell {
@@ -18,12 +19,17 @@ std::thread start_quiet(std::function<void()> body) {
   sigset_t before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  std::thread result{[body = std::move(body)] {
-    pthread_setname_np(pthread_self(), "roscell-hands");
-    body();
-  }};
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  return result;
+  try {
+    std::thread result{[body = std::move(body)] {
+      pthread_setname_np(pthread_self(), "roscell-hands");
+      body();
+    }};
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    return result;
+  } catch (...) {
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    throw;
+  }
 }
 
 } // namespace
@@ -49,7 +55,12 @@ void handshake_thread::run(std::function<void()> job) {
   // One that has decided to end does nothing more with this object.
   if (thread_.joinable())
     thread_.join();
-  thread_ = start_quiet([this] { work(); });
+  try {
+    thread_ = start_quiet([this] { work(); });
+  } catch (const std::system_error&) {
+    // Later there may be room for one; who waits has a time limit.
+    working_ = false;
+  }
 }
 
 /// Takes the next job; false: there has been none for a while.

@@ -103,6 +103,12 @@ public:
     return core_->tls.get();
   }
 
+  /// Why the other end has broken off a secure one, as it has said by TLS: it
+  /// looks at certificates only after this end has. None: it has not.
+  std::optional<distrusted> refusal() const {
+    return core_->tls ? core_->tls->problem() : std::nullopt;
+  }
+
   template <class Buffers, class Handler>
   void async_read_some(const Buffers& into, Handler&& handler) {
     if (!core_->tls)

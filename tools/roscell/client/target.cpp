@@ -1,6 +1,7 @@
 #include "tools/roscell/client/target.hpp"
 
 #include "actors/edge/session/limits.hpp"
+#include "actors/edge/trust/site_identity.hpp"
 #include "tools/roscell/exit_code.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"

@@ -1,12 +1,14 @@
 #pragma once
 
-#include "actors/edge/trust/site_identity.hpp"
-
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
+
+namespace roscell {
+class site_identity;
+} // namespace roscell
 
 namespace roscell::cli {
 

@@ -3,7 +3,6 @@
 #include "actors/edge/http/http_types.hpp"
 #include "actors/edge/io/edge_error.hpp"
 #include "actors/edge/io/io_thread.hpp"
-#include "actors/edge/trust/site_identity.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -17,6 +16,8 @@
 #include <variant>
 
 namespace roscell {
+
+class site_identity;
 
 /// Which server a client speaks to.
 struct http_endpoint {

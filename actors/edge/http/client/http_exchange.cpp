@@ -255,6 +255,9 @@ void http_exchange::on_read(error ec, size_t bytes) {
 }
 
 void http_exchange::on_broken(error ec) {
+  if (const auto why = socket_.refusal())
+    return fail(http_failure::kind::distrusted,
+                "it has refused this identity: " + why->text);
   if (ec == http::error::body_limit)
     fail(http_failure::kind::too_long);
   else if (ec.category() == boost::asio::error::get_misc_category()

@@ -166,7 +166,7 @@ TEST_CASE("who is revoked is refused from the next handshake on") {
   REQUIRE(list.add(own.chain.front().serial(), own.chain.front().ends_unix_s(),
                    clock_unix_s()));
   std::ofstream{file} << list.signed_text(site.key);
-  (void)base.refusal(robot);
+  CHECK(base.refusal(robot) == error_code::unauthorized);
   CHECK(base.refused.take() == "revoked");
   // Whoever takes the list away lets nobody in by that.
   std::filesystem::remove(file);
