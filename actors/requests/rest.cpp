@@ -42,9 +42,8 @@ void finish_exchange(exchange_pointer self, const responder& answer,
   self->quit();
 }
 
-introspected_actor::behavior_type
-rest_exchange(exchange_pointer self, const request_router_actor& router,
-              const json_request& what, const responder& answer) {
+void ask_router(exchange_pointer self, const request_router_actor& router,
+                const json_request& what, const responder& answer) {
   // A router that ends leaves its requests unanswered.
   watch_until_own_end(self, router);
   self->set_down_handler([self, answer](const caf::down_msg&) {
@@ -64,6 +63,17 @@ rest_exchange(exchange_pointer self, const request_router_actor& router,
           [self, answer](const caf::error& why) {
             finish_exchange(self, answer, to_failure(why));
           });
+}
+
+introspected_actor::behavior_type
+rest_exchange(exchange_pointer self, const request_router_actor& router,
+              const json_request& what, const responder& answer) {
+  if (const auto why = refuse_by_type(what.role, what.text)) {
+    answer.error(status_forbidden, why->code, why->message, why->hint);
+    self->quit();
+  } else {
+    ask_router(self, router, what, answer);
+  }
   return {
       [](const state_query&) { return state_of(json::object()); },
   };

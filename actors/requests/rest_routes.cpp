@@ -183,7 +183,7 @@ rest_route route_of(const http_request& request) {
                       *build);
   if (request.method == "POST") {
     if (request.path == "/v1/requests")
-      return json_request{request.body, "", request.from};
+      return json_request{request.body, "", request.from, request.role};
     // Open to unauthenticated peers: what it takes is proven in itself.
     if (request.path == registration_path)
       return json_request{request.body, "registration_switch", request.from};

@@ -45,6 +45,7 @@ struct json_request {
   std::string text;
   std::string only; ///< The one message type that is allowed; empty: any.
   std::string from; ///< Who asks.
+  std::string role; ///< What he may at the site; empty: all.
 };
 
 /// What an HTTP request asks for, or why it asks for nothing.

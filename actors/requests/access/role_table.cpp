@@ -43,14 +43,16 @@ bool is_for_machines(site_role role, std::string_view method,
   return method == "GET" && (path == hello_path || path == "/healthz");
 }
 
-failure refusal_of(const http_request& request, std::string_view what) {
+failure refusal_of(const std::string& role, const std::string& what) {
   return {error_code::unauthorized,
-          "the role '" + request.role + "' may not ask for "
-              + std::string{what},
-          "",
-          request.role == "viewer" ? "an identity with the role 'operator' may"
-                                   : "",
+          "the role '" + role + "' may not ask for " + what, "",
+          role == "viewer" ? "an identity with the role 'operator' may" : "",
           ""};
+}
+
+/// Of a role that is none of ours nobody may anything.
+site_role role_of(const std::string& word) {
+  return role_from(word).value_or(site_role::issuer);
 }
 
 /// The type that a request says; empty: it says none, and is refused for that.
@@ -91,19 +93,20 @@ bool may_request(site_role role, std::string_view type) {
 }
 
 std::optional<failure> refuse_by_role(const http_request& request) {
-  if (request.role.empty())
+  if (request.role.empty() || request.permitted
+      || may_use_path(role_of(request.role), request.method, request.path))
     return std::nullopt;
-  const auto role = role_from(request.role).value_or(site_role::issuer);
-  if (!request.permitted && !may_use_path(role, request.method, request.path))
-    return refusal_of(request, request.method + " " + request.path);
-  if (request.method != "POST" || request.path != requests_path)
+  return refusal_of(request.role, request.method + " " + request.path);
+}
+
+std::optional<failure> refuse_by_type(const std::string& role,
+                                      const std::string& text) {
+  if (role.empty() || role_of(role) == site_role::operating)
     return std::nullopt;
-  if (role == site_role::operating)
+  const auto type = type_in(text);
+  if (type.empty() || may_request(role_of(role), type))
     return std::nullopt;
-  const auto type = type_in(request.body);
-  if (type.empty() || may_request(role, type))
-    return std::nullopt;
-  return refusal_of(request, "a '" + type + "'");
+  return refusal_of(role, "a '" + type + "'");
 }
 
 } // namespace roscell

@@ -23,7 +23,13 @@ bool may_use_path(site_role role, std::string_view method,
 /// Whether the role may send this request to `/v1/requests`.
 bool may_request(site_role role, std::string_view type);
 
-/// Why an HTTP request is refused by its role; none: it is not.
+/// Why an HTTP request is refused by its role and path; none: it is not.
 std::optional<failure> refuse_by_role(const http_request& request);
+
+/// The same for what is sent to `/v1/requests`, which is read for it, by
+/// somebody of this role. None too for what says no type, and is refused for
+/// that.
+std::optional<failure> refuse_by_type(const std::string& role,
+                                      const std::string& text);
 
 } // namespace roscell

@@ -68,10 +68,13 @@ bool is_hidden(const std::string& text) {
 
 TEST_CASE("a secret is taken from this host, and from no other", "[secrets]") {
   for (const auto* from :
-       {"root", "user 1000", "127.0.0.1:40112", "[::1]:40112", ""})
+       {"root", "user 1000", "127.0.0.1:40112", "[::1]:40112", "",
+        // By TLS, which is not in clear.
+        "operator anna at 10.0.0.3:40112"})
     CHECK_FALSE(refuse_from_afar("secret_setting", from));
   for (const auto* from :
-       {"10.0.0.3:40112", "192.168.127.1:1", "node head", "[fe80::1]:7"}) {
+       {"10.0.0.3:40112", "192.168.127.1:1", "node head", "[fe80::1]:7",
+        "viewer wall at 10.0.0.3:1", "node arm at 10.0.0.3:1"}) {
     const auto why = refuse_from_afar("secret_setting", from);
     REQUIRE(why);
     CHECK(why->code == error_code::unauthorized);
