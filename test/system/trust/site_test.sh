@@ -82,6 +82,12 @@ test_each_role_gets_its_due_over_tcp_and_a_stranger_nothing() {
   as arm status > "$scratch/out" 2>&1 && fail "a node has asked as a person"
   as anna run "$scratch/task.json" > "$scratch/out" 2>&1 || fail "$(cat "$scratch/out")"
   lines_come pick one
+  # A secret crosses the wire, since nobody can read it there.
+  printf hunter2 | "$ROSCELL" secret set broker --to "$where" \
+    --identity "$scratch/anna.pem" > "$scratch/out" 2>&1 || fail "$(cat "$scratch/out")"
+  expect "secrets" "$(get head /v1/secrets | jq -c '[.secrets[].name]')" '["broker"]'
+  printf x | "$ROSCELL" secret set broker --to "$where" \
+    --identity "$scratch/wall.pem" > "$scratch/out" 2>&1 && fail "a viewer has set a secret"
   # A stranger: plain, with no identity, and with one of a site of that name.
   curl -s --max-time 5 "http://$where/healthz" > "$scratch/out" 2>&1 \
     && fail "plain: $(cat "$scratch/out")"
@@ -118,6 +124,33 @@ test_who_is_revoked_comes_in_no_more_and_the_others_stay() {
     --identity "$scratch/belt.pem"
   await head '.event == "session_refused"
     and (.data.message | contains("was revoked"))' > /dev/null
+  # Whom it is about learns it, too.
+  await belt 'tojson | contains("identity of this node was refused")' > /dev/null
   expect "nodes" "$(get head /v1/cell | jq '.nodes | length')" 2
   lines_come pick four
+}
+
+test_a_skill_is_fetched_and_a_free_node_is_switched_by_identities() {
+  start_site
+  issue node belt
+  issue coordinator side
+  # It has no skill of its own: what it runs comes from head, by a permit.
+  local given=$skills
+  skills=$scratch/none
+  mkdir "$skills"
+  start_node belt --interface lo --wait --cpu-floor 1 --label place=belt \
+    --identity "$scratch/belt.pem"
+  skills=$given
+  to head form belt > "$scratch/out" 2>&1 || fail "$(cat "$scratch/out")"
+  await_joined head belt
+  "$ROSCELL" skill add "$skills/echo" --to "$scratch/head/node.sock" \
+    > "$scratch/out" 2>&1 || fail "$(cat "$scratch/out")"
+  run_on belt far
+  lines_come far one
+  # Another coordinator of the site takes it over, by a session of identities.
+  start_node side --coordinator --cell side --interface lo --cpu-floor 1 \
+    --identity "$scratch/side.pem"
+  to head stop far > "$scratch/out" 2>&1 || fail "$(cat "$scratch/out")"
+  to head transfer belt side > "$scratch/out" 2>&1 || fail "$(cat "$scratch/out")"
+  await_joined side belt
 }

@@ -77,17 +77,6 @@ std::string fresh_uuid() {
   return text;
 }
 
-/// Written where nobody else can read it; what is there already is not lost.
-void write_identity(const fs::path& file, const own_identity& x) {
-  std::error_code ignored;
-  if (fs::exists(file, ignored))
-    throw command_error{exit_usage,
-                        "'" + printable(file.string()) + "' is there already",
-                        "--out names another file"};
-  if (const auto why = write_lasting(file, text_of(x)); !why.empty())
-    throw command_error{exit_refused, why};
-}
-
 int issue_identity(const site_options& options) {
   const auto role = role_from(options.role);
   auto site = open_site(options);
@@ -106,7 +95,10 @@ int issue_identity(const site_options& options) {
                         "--out names another file"};
   const auto made =
       unless_failed(site.issue(who, unix_now_s(), good_for_of(*role)));
-  write_identity(file, made);
+  // Its owner alone can read it.
+  if (const auto why = write_lasting(file, text_of(made)); !why.empty())
+    throw command_error{exit_refused, why,
+                        "it was made, and is in no file: revoke it"};
   print_note("'" + printable(file.string()) + "' is the identity of "
              + printable(text_of(who))
              + ", with its key: give it to no other, and remove it here");

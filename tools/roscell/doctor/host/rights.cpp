@@ -3,10 +3,13 @@
 #include "actors/edge/disk/file_rights.hpp"
 #include "actors/edge/host/own_process.hpp"
 #include "actors/edge/session/site_token.hpp"
+#include "actors/edge/trust/identity_file.hpp"
+#include "actors/edge/trust/limits.hpp"
 #include "tools/roscell/client/target.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/split_words.hpp"
 
+#include <ctime>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -47,9 +50,34 @@ finding judge_missing(const token_place& place) {
           std::string{why_token} + ": " + site_token_hint(place.file)};
 }
 
+finding judge_identity(const std::filesystem::path& file, int64_t now_unix_s) {
+  const auto read = read_identity_file(file);
+  if (const auto* why = std::get_if<edge_error>(&read))
+    return {judgement::broken, why->message, why->hint};
+  const auto& own = std::get<own_identity>(read);
+  const auto days =
+      (own.chain.front().ends_unix_s() - now_unix_s) / limits::trust::day_s;
+  const auto is = "the identity in " + file.string() + " is of "
+                  + text_of(own.who()) + ", and ";
+  constexpr int64_t soon_days = 30;
+  if (days > soon_days)
+    return {judgement::ok,
+            is + "is good for " + std::to_string(days) + " more days"};
+  return {days < 0 ? judgement::broken : judgement::warning,
+          is
+              + (days < 0 ? "has ended"
+                          : "ends in " + std::to_string(days) + " days"),
+          "no node of the site believes one that has ended",
+          "roscell site issue " + std::string{to_word(own.who().role)} + " "
+              + own.who().name + " --uuid " + own.who().uuid};
+}
+
 } // namespace
 
 findings check_site_token(const checked_host& host) {
+  if (!host.config.identity_file.empty())
+    return {judge_identity(host.config.identity_file,
+                           static_cast<int64_t>(std::time(nullptr)))};
   const auto place = place_for(host.config);
   std::error_code problem;
   if (place.file.empty() || (!fs::exists(place.file, problem) && !problem))
