@@ -130,7 +130,7 @@ test_who_is_revoked_comes_in_no_more_and_the_others_stay() {
   lines_come pick four
 }
 
-test_a_skill_is_fetched_and_a_free_node_is_switched_by_identities() {
+test_a_skill_is_fetched_and_an_unassigned_node_is_switched_by_identities() {
   start_site
   issue node belt
   issue coordinator side
