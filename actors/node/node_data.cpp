@@ -2,7 +2,6 @@
 
 #include "actors/core/edge_failure.hpp"
 #include "actors/edge/disk/data_folder.hpp"
-#include "actors/edge/io/crypto.hpp"
 #include "actors/edge/trust/site_identity.hpp"
 #include "messages/failure.hpp"
 #include "schemas/document.hpp"
@@ -27,17 +26,6 @@ fs::path database_of(const node_config& config) {
 
 fs::path token_of(const node_config& config) {
   return config.data_dir / "token";
-}
-
-/// A random UUID, version 4 of RFC 4122.
-std::string make_uuid() {
-  auto bytes = random_bytes(16);
-  bytes[6] = static_cast<char>((bytes[6] & 0x0f) | 0x40);
-  bytes[8] = static_cast<char>((bytes[8] & 0x3f) | 0x80);
-  auto hex = to_hex(bytes);
-  for (const size_t dash : {8, 13, 18, 23})
-    hex.insert(dash, "-");
-  return hex;
 }
 
 /// Every record is JSON that this program has written: what is none tells that

@@ -1,5 +1,6 @@
 #include "actors/edge/trust/identity.hpp"
 
+#include "actors/edge/io/crypto.hpp"
 #include "actors/edge/io/plain_text.hpp"
 
 #include <algorithm>
@@ -53,6 +54,16 @@ bool is_site_name(std::string_view text) {
          && is_small(text.front()) && is_small(text.back())
          && std::all_of(text.begin(), text.end(),
                         [](char c) { return is_small(c) || c == '-'; });
+}
+
+std::string make_uuid() {
+  auto bytes = random_bytes(16);
+  bytes[6] = static_cast<char>((bytes[6] & 0x0f) | 0x40);
+  bytes[8] = static_cast<char>((bytes[8] & 0x3f) | 0x80);
+  auto hex = to_hex(bytes);
+  for (const size_t dash : {8, 13, 18, 23})
+    hex.insert(dash, "-");
+  return hex;
 }
 
 std::string uri_of(const identity& x) {

@@ -36,6 +36,9 @@ struct identity {
 /// of these at an end. It is part of DNS names.
 bool is_site_name(std::string_view text);
 
+/// A random UUID, version 4 of RFC 4122.
+std::string make_uuid();
+
 /// The form of SPIFFE, which other tools read:
 /// spiffe://SITE/ROLE/NAME/UUID
 std::string uri_of(const identity& x);

@@ -1,7 +1,4 @@
-#include "actors/edge/disk/data_folder.hpp"
 #include "actors/edge/disk/small_file.hpp"
-#include "actors/edge/io/crypto.hpp"
-#include "actors/edge/trust/limits.hpp"
 #include "actors/edge/trust/site_folder.hpp"
 #include "tools/roscell/client/target.hpp"
 #include "tools/roscell/commands.hpp"
@@ -70,22 +67,18 @@ int create_site(const site_options& options) {
   return exit_done;
 }
 
-std::string fresh_uuid() {
-  auto text = to_hex(random_bytes(16));
-  for (const size_t at : {8U, 13U, 18U, 23U})
-    text.insert(at, "-");
-  return text;
-}
-
 int issue_identity(const site_options& options) {
   const auto role = role_from(options.role);
   auto site = open_site(options);
   const identity who{site.site().site(), *role, options.name,
-                     options.uuid.empty() ? fresh_uuid() : options.uuid};
+                     options.uuid.empty() ? make_uuid() : options.uuid};
   if (const auto read = identity_in(uri_of(who)); !read || !(*read == who))
-    throw command_error{exit_usage, "an identity cannot be of '"
-                                        + printable(options.name) + "', '"
-                                        + printable(who.uuid) + "'"};
+    throw command_error{
+        exit_usage,
+        "an identity cannot be of '" + printable(options.name)
+            + "' with the UUID '" + printable(who.uuid) + "'",
+        "a name has 1 to 63 letters, digits, '_', '.' or '-', the first a "
+        "letter or digit; a UUID 1 to 64 hexadecimal digits or '-'"};
   const auto file =
       options.out.empty() ? fs::path{options.name + ".pem"} : options.out;
   std::error_code ignored;
