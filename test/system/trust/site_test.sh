@@ -1,11 +1,7 @@
 # A site of identities: who has one gets what his role lets him, and who has none
 # gets nothing.
 
-# issue ROLE NAME: into NAME.pem.
-issue() {
-  "$ROSCELL" site issue "$1" "$2" --dir "$scratch/site" --out "$scratch/$2.pem" \
-    2> "$scratch/issue.err" || fail "$(cat "$scratch/issue.err")"
-}
+. test/system/scenes/identities.sh
 
 start_arm() {
   start_node arm --interface lo --join "$(discovery_of head)" --cpu-floor 1 \
@@ -14,8 +10,7 @@ start_arm() {
 
 # start_site: head coordinates arm; anna is an operator, wall a viewer.
 start_site() {
-  "$ROSCELL" site create hall --dir "$scratch/site" 2> /dev/null \
-    || fail "no site could be made"
+  make_site hall
   issue coordinator head
   issue node arm
   issue operator anna
@@ -24,7 +19,7 @@ start_site() {
     --identity "$scratch/head.pem"
   start_arm
   await_joined head arm
-  where=$(sed -n "s/.*node 'head' listens on \([0-9.:]*\) .*/\1/p" "$scratch/head.log" | head -1)
+  where=$(tcp_of head)
 }
 
 # as PERSON COMMAND...: by TCP.
@@ -94,9 +89,8 @@ test_each_role_gets_its_due_over_tcp_and_a_stranger_nothing() {
   curl -sk --max-time 5 "https://$where/healthz" > "$scratch/out" 2>&1 \
     && fail "nobody: $(cat "$scratch/out")"
   [[ ! -s $scratch/out ]] || fail "a stranger learned: $(cat "$scratch/out")"
-  "$ROSCELL" site create hall --dir "$scratch/other" 2> /dev/null
-  "$ROSCELL" site issue operator anna --dir "$scratch/other" \
-    --out "$scratch/false.pem" 2> /dev/null
+  make_site hall other
+  issue operator false other
   as false status > "$scratch/out" 2>&1 && fail "of another site: $(cat "$scratch/out")"
   grep -q "is not believed" "$scratch/out" || fail "$(cat "$scratch/out")"
   await head '.event == "session_refused"' > /dev/null
