@@ -33,7 +33,7 @@ median() {
 # cpu_ns NAME: time that all threads of the node have run. Where it was started by
 # `ip netns exec`, that has replaced itself by the node.
 cpu_ns() {
-  cat /proc/"${pid[$1]}"/task/*/schedstat | awk '{sum += $1} END {print sum}'
+  cat /proc/"${pid[$1]}"/task/*/schedstat | awk '{sum += $1} END {printf "%.0f\n", sum}'
 }
 
 # memory_kib NAME KIND: such as Pss, of that node.
