@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Strangers who begin TLS with a server without end, from four addresses of 127/8.
 
-Usage: strangers.py PORT A_SECOND SECONDS [IDENTITY.pem]
+Usage: unauthenticated_peers.py PORT A_SECOND SECONDS [IDENTITY.pem]
 Prints how many came to an end, and how many were broken off.
 """
 import socket
