@@ -1,6 +1,7 @@
 #include "roscell/client.hpp"
 
 #include "actors/edge/http/client/http_client.hpp"
+#include "actors/edge/trust/site_identity.hpp"
 #include "client/event_follower.hpp"
 #include "messages/codec/json_codec.hpp"
 #include "messages/failure.hpp"
@@ -51,6 +52,16 @@ const http_reply& checked(const edge_result<http_reply>& result) {
   return std::get<http_reply>(result);
 }
 
+/// Null: the target has none.
+std::shared_ptr<site_identity> identity_of(const client_target& to) {
+  if (to.identity_file.empty() || !to.socket.empty())
+    return nullptr;
+  auto read = site_identity::in_file(to.identity_file);
+  if (const auto* why = std::get_if<edge_error>(&read))
+    throw to_client_error(*why);
+  return std::get<std::shared_ptr<site_identity>>(std::move(read));
+}
+
 } // namespace
 
 class client_cancel::impl {
@@ -69,7 +80,8 @@ void client_cancel::cancel() const {
 class client::impl {
 public:
   explicit impl(const client_target& to)
-      : http_(http_endpoint{to.socket, to.host, to.port, to.token}) {}
+      : http_(http_endpoint{to.socket, to.host, to.port, to.token,
+                            identity_of(to)}) {}
 
   http_reply ask(const char* method, const std::string& path,
                  const std::string& body,

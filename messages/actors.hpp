@@ -359,6 +359,36 @@ using task_change_waiter_actor = introspected_actor::extend<
     // INTERNAL: alarm number N is due.
     caf::reacts_to<caf::tick_atom, uint64_t>>;
 
+/// The SITE KEEPER: what this node is at its site, and on a coordinator who may
+/// become something there. It blocks on the disk.
+using site_keeper_actor = introspected_actor::extend<
+    caf::replies_to<site_query>::with<site_status>,
+    // Errors: conflict (this node has no identity that can let others in, too
+    // many invitations).
+    caf::replies_to<site_invitation>::with<site_invited>,
+    // Errors: unauthorized (no such invitation, used, over, no proof, another
+    // name), schema_violation (the request), internal (the disk).
+    caf::replies_to<site_entry>::with<site_entered>,
+    // Errors: unauthorized (he may not, he was revoked), schema_violation.
+    caf::replies_to<site_renewal>::with<site_entered>,
+    caf::replies_to<identity_request_query>::with<identity_requested>,
+    // Errors: schema_violation (not of the keys that this node has asked with),
+    // conflict (it is of another site), internal (the disk).
+    caf::replies_to<identity_setting>::with<identity_set>,
+    // Errors: conflict (this node has no identity), schema_violation (not the
+    // site's).
+    caf::replies_to<revocation_setting>::with<revocations_set>,
+    caf::reacts_to<note_coordinator>,
+    // INTERNAL: a coordinator has answered.
+    caf::reacts_to<renewal_answered>,
+    // INTERNAL: it may be time to ask for a fresh certificate.
+    caf::reacts_to<caf::tick_atom, uint64_t>>;
+
+/// The AUDIT LOG: who has changed what, on the disk. It blocks there.
+using audit_log_actor =
+    introspected_actor::extend<caf::replies_to<audit_query>::with<audit_list>,
+                               caf::reacts_to<note_change>>;
+
 /// The NODE: root of everything that runs on one machine.
 using node_actor = introspected_actor::extend<
     caf::replies_to<node_query>::with<node_description>,

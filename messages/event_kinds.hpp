@@ -66,6 +66,21 @@ inline constexpr event_kind secret_removed{"secret_removed", "secret",
 inline constexpr event_kind secret_ignored{
     "secret_ignored", "-", "every node, at its start",
     "Something among the files of its secrets is none: `path` and `reason`."};
+inline constexpr event_kind certificate_issued{
+    "certificate_issued", "node", "a coordinator with identities",
+    "It has made a certificate for that node: `serial`, `ends_unix_s`, and "
+    "`reason`: invitation or renewal."};
+inline constexpr event_kind identity_taken{
+    "identity_taken", "node", "every node",
+    "The node has a new certificate: `identity`, `ends_unix_s`, and whether it "
+    "counts `later` only, after the node's next start."};
+inline constexpr event_kind renewal_failed{
+    "renewal_failed", "node", "every node",
+    "Its certificate was not renewed: `message` and `hint`."};
+inline constexpr event_kind revocations_taken{
+    "revocations_taken", "-", "every node",
+    "The node has a newer list of who counts no more: its `number`, and how "
+    "many are `revoked`."};
 inline constexpr event_kind record_ignored{
     "record_ignored", "key", "every node, at its start",
     "A record of the data directory cannot be read: `table` and `reason`."};
@@ -165,7 +180,8 @@ inline constexpr event_kind node_vanished{"node_vanished", "a node in no cell",
                                           "coordinator",
                                           "It announces itself no more."};
 inline constexpr event_kind session_refused{
-    "session_refused", "address", "coordinator",
+    "session_refused", "address",
+    "coordinator, and every node with an identity",
     "Who called has not proved itself: `code` and `message`."};
 inline constexpr event_kind claim_ignored{
     "claim_ignored", "the node that is announced", "coordinator, at its start",

@@ -76,9 +76,12 @@ struct session_accepted {
   static constexpr const char* type = "session_accepted";
 
   std::string session; ///< Both sides compute it, hexadecimal.
+  /// Number of the acceptor's list of the revoked; 0: it has none.
+  int64_t revocations = 0;
 
   static constexpr auto fields() {
-    return field_list{required("session", &session_accepted::session)};
+    return field_list{required("session", &session_accepted::session),
+                      optional("revocations", &session_accepted::revocations)};
   }
 };
 

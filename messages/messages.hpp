@@ -34,6 +34,7 @@
 #include "messages/resources.hpp"
 #include "messages/secret.hpp"
 #include "messages/session.hpp"
+#include "messages/site.hpp"
 #include "messages/skill.hpp"
 #include "messages/task.hpp"
 #include "messages/task_set.hpp"

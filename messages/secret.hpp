@@ -15,10 +15,12 @@ struct secret_setting {
   static constexpr const char* type = "secret_setting";
   std::string name;
   std::string value; ///< In base64.
+  std::string node;  ///< Of the cell; empty: the one that is asked.
 
   static constexpr auto fields() {
     return field_list{required("name", &secret_setting::name),
-                      required("value", &secret_setting::value)};
+                      required("value", &secret_setting::value),
+                      optional("node", &secret_setting::node)};
   }
 };
 

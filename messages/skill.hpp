@@ -229,6 +229,7 @@ struct cell_build {
   installed_skill skill;
   int64_t added_unix_ms = 0;
   std::vector<std::string> keepers; ///< Nodes that never let it go.
+  std::string signed_by; ///< spiffe://SITE/ROLE/NAME/UUID; empty: by nobody.
   // Said where it is asked for, not stored.
   std::vector<std::string> coming_to; ///< Nodes that fetch it for a step.
   int64_t instances = 0;              ///< What runs of it, or will.
@@ -238,6 +239,7 @@ struct cell_build {
                       required("skill", &cell_build::skill),
                       required("added_unix_ms", &cell_build::added_unix_ms),
                       required("keepers", &cell_build::keepers),
+                      optional("signed_by", &cell_build::signed_by),
                       optional("coming_to", &cell_build::coming_to),
                       optional("instances", &cell_build::instances)};
   }
@@ -260,11 +262,13 @@ struct skill_list {
 struct skill_addition {
   static constexpr const char* type = "skill_addition";
   build_name build;
-  std::string node; ///< The one that has it.
+  std::string node;      ///< The one that has it.
+  std::string signature; ///< As `roscell skill sign` makes it; may be empty.
 
   static constexpr auto fields() {
     return field_list{required("build", &skill_addition::build),
-                      required("node", &skill_addition::node)};
+                      required("node", &skill_addition::node),
+                      optional("signature", &skill_addition::signature)};
   }
 };
 

@@ -92,6 +92,24 @@
   X(lay_out_secrets)                                                           \
   X(secrets_laid_out)                                                          \
   X(clear_secrets)                                                             \
+  X(site_query)                                                                \
+  X(site_status)                                                               \
+  X(site_invitation)                                                           \
+  X(site_invited)                                                              \
+  X(site_entry)                                                                \
+  X(site_renewal)                                                              \
+  X(site_entered)                                                              \
+  X(identity_request_query)                                                    \
+  X(identity_requested)                                                        \
+  X(identity_setting)                                                          \
+  X(identity_set)                                                              \
+  X(revocation_setting)                                                        \
+  X(revocations_set)                                                           \
+  X(audit_query)                                                               \
+  X(audit_list)                                                                \
+  X(note_change)                                                               \
+  X(note_coordinator)                                                          \
+  X(renewal_answered)                                                          \
   X(task_history_query)                                                        \
   X(task_history)                                                              \
   X(task_query)                                                                \

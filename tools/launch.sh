@@ -58,7 +58,9 @@ take_node_option() {
     --data-dir) data_dir=$(absolute "$value"); return ;;
     --interface) interface=$value ;;
     --skills | --site-token) value=$(absolute "$value") mounts+=("$value:ro") ;;
-    --socket) value=$(absolute "$value") mounts+=("$(dirname "$value")") ;;
+    # The node writes beside it when its certificate is renewed.
+    --socket | --identity) value=$(absolute "$value") mounts+=("$(dirname "$value")") ;;
+    --invite) [[ ! -f $value ]] || value=$(< "$value") ;;
   esac
   node_options+=("$name" "$value")
 }
@@ -71,7 +73,7 @@ while [[ $# -gt 0 ]]; do
   option=$1
   case $option in
     --runtime | --data-dir | --interface | --skills | --site-token | --socket | \
-      --config | --engine | --container | --share | --base | --binary)
+      --identity | --invite | --config | --engine | --container | --share | --base | --binary)
       [[ $# -gt 1 ]] || usage "$option wants a value" ;;
   esac
   case $option in
@@ -86,7 +88,7 @@ while [[ $# -gt 0 ]]; do
     --base) base=$2; shift ;;
     --binary) binary=$2; shift ;;
     --runtime | --data-dir | --interface | --skills | --site-token | --socket | \
-      --config)
+      --identity | --invite | --config)
       take_node_option "$option" "$2"; shift ;;
     *) node_options+=("$option") ;;
   esac

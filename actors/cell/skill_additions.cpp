@@ -85,7 +85,8 @@ void on_addition_persisted(coordinator_pointer self, const addition_ptr& x) {
                                     {{"hash", skill.hash},
                                      {"version", skill.version},
                                      {"bytes", x->build.build.bytes},
-                                     {"keepers", x->build.keepers}});
+                                     {"keepers", x->build.keepers},
+                                     {"signed_by", x->build.signed_by}});
   self->state.additions.erase(x->build.build.hash);
   x->promise.deliver(skill_added{x->build});
 }
@@ -187,6 +188,41 @@ void describe_addition(coordinator_pointer self, const addition_ptr& x) {
             });
 }
 
+/// Empty: by nobody, and it need not be.
+std::variant<std::string, failure> signer_of(const coordinator_setup& setup,
+                                             const skill_addition& request) {
+  if (!request.signature.empty() && setup.check_signature)
+    return setup.check_signature(request.build.hash, request.signature);
+  if (!setup.require_signed_skills)
+    return std::string{};
+  return failure{
+      error_code::unauthorized,
+      "this cell takes skills only that an operator has signed", "/signature",
+      "`roscell skill sign` makes the signature, beside the skill", ""};
+}
+
+/// A build of the cell that somebody has signed since.
+caf::result<skill_added> note_signer(coordinator_pointer self, cell_build known,
+                                     const std::string& signed_by) {
+  if (signed_by.empty() || !known.signed_by.empty())
+    return skill_added{known};
+  known.signed_by = signed_by;
+  auto promise = self->make_response_promise<skill_added>();
+  const json record = known;
+  keep_records(
+      self, {{builds_table, known.build.hash, record.dump()}},
+      [self, known, promise]() mutable {
+        // It may have been removed meanwhile.
+        if (self->state.builds.find(known.build.hash))
+          self->state.builds.add(known);
+        promise.deliver(skill_added{known});
+      },
+      [promise](const failure& why) mutable {
+        promise.deliver(to_error(why));
+      });
+  return promise;
+}
+
 } // namespace
 
 void restore_builds(coordinator_pointer self) {
@@ -202,8 +238,12 @@ void restore_builds(coordinator_pointer self) {
 caf::result<skill_added> add_skill(coordinator_pointer self,
                                    const skill_addition& request) {
   auto& st = self->state;
+  const auto signer = signer_of(st.setup, request);
+  if (const auto* why = std::get_if<failure>(&signer))
+    return to_error(*why);
+  const auto& signed_by = std::get<std::string>(signer);
   if (const auto known = st.builds.find(request.build.hash))
-    return skill_added{*known};
+    return note_signer(self, *known, signed_by);
   if (!st.setup.keeper)
     return fail(error_code::conflict, "this coordinator keeps no builds");
   if (st.registry.find_name(request.node) == nullptr)
@@ -217,6 +257,7 @@ caf::result<skill_added> add_skill(coordinator_pointer self,
   auto x = std::make_shared<addition>();
   x->request = request;
   x->build.build = request.build;
+  x->build.signed_by = signed_by;
   x->copies = {request.build.hash, {}, unix_now_ms()};
   x->candidates = second_keepers(st, request.node);
   x->promise = self->make_response_promise<skill_added>();

@@ -5,6 +5,8 @@
 #include "messages/insight/node_cost.hpp"
 #include "messages/insight/reach.hpp"
 #include "messages/node.hpp"
+#include "messages/secret.hpp"
+#include "messages/site.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,10 +15,19 @@ namespace roscell {
 
 namespace {
 
-/// What a node answers about itself from what it knows,
-constexpr std::array<std::string_view, 6> queries{
-    node_query::type,    actor_query::type, cost_query::type,
-    reach_opening::type, exec_input::type,  exec_output_query::type};
+/// What a node answers about itself from what it knows or keeps,
+constexpr std::array<std::string_view, 12> queries{node_query::type,
+                                                   actor_query::type,
+                                                   cost_query::type,
+                                                   reach_opening::type,
+                                                   exec_input::type,
+                                                   exec_output_query::type,
+                                                   secret_setting::type,
+                                                   site_query::type,
+                                                   identity_request_query::type,
+                                                   identity_setting::type,
+                                                   revocation_setting::type,
+                                                   audit_query::type};
 
 /// and what it has to find out.
 constexpr std::array<std::string_view, 3> looks{

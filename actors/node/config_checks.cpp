@@ -5,6 +5,7 @@
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/edge/process/privileges.hpp"
 #include "actors/edge/trust/identity_file.hpp"
+#include "actors/node/node_identity.hpp"
 #include "messages/failure.hpp"
 #include "messages/messages.hpp"
 #include "schemas/message_catalogue.hpp"
@@ -56,9 +57,9 @@ namespace {
 
 /// A node that has an identity is called as that says.
 caf::error take_name(node_config& config) {
-  if (config.identity_file.empty())
+  if (!has_identity_file(config))
     return caf::none;
-  const auto read = read_identity_file(config.identity_file);
+  const auto read = read_identity_file(identity_file_of(config));
   if (const auto* why = std::get_if<edge_error>(&read))
     return to_caf(*why);
   const auto& who = std::get<own_identity>(read).who();
@@ -87,6 +88,14 @@ caf::error complete_config(node_config& config) {
     config.cell = config.name;
   if (auto why = check_words(config))
     return why;
+  if (config.require_signed_skills && !has_identity_file(config)
+      && config.invitation.empty() && !keeps_site(config))
+    return fail(error_code::schema_violation,
+                "skills are signed at a site of identities, and this node has "
+                "a token",
+                "",
+                "`roscell site adopt` gives a cell identities; or leave out "
+                "--require-signed-skills");
   if (config.coordinator && !config.join.empty())
     return fail(error_code::schema_violation,
                 "a coordination node does not join another cell", "",

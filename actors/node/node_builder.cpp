@@ -20,6 +20,7 @@
 #include "actors/node/config_checks.hpp"
 #include "actors/node/node.hpp"
 #include "actors/node/node_agent.hpp"
+#include "actors/node/node_identity.hpp"
 #include "actors/node/node_runtime.hpp"
 #include "actors/node/reach_prober.hpp"
 #include "actors/node/resource_probe.hpp"
@@ -33,6 +34,8 @@
 #include "actors/requests/rest.hpp"
 #include "actors/session/registration_client.hpp"
 #include "actors/session/session_connector.hpp"
+#include "actors/site/audit_log.hpp"
+#include "actors/site/site_keeper.hpp"
 #include "messages/failure.hpp"
 
 #include <system_error>
@@ -72,6 +75,7 @@ void node_builder::build(running_node& result) {
   parts_.skills->get()->publish_problems(parts_.context, {});
   start_images();
   start_secrets();
+  start_site();
   start_supervision();
   start_builds();
   if (parts_.config.coordinator)
@@ -145,6 +149,26 @@ void node_builder::start_secrets() {
   parts_.services->secrets = start_blocking(secret_keeper, with);
 }
 
+/// Before anybody who meets coordinators.
+void node_builder::start_site() {
+  const auto& config = parts_.config;
+  auto& services = *parts_.services;
+  site_keeper_config with;
+  with.context = parts_.context;
+  with.io = parts_.edges->io->core();
+  with.node = config.name;
+  with.uuid = parts_.identity.uuid;
+  with.coordinator = config.coordinator;
+  with.identity = data_.site.identity();
+  with.file = identity_file_of(config);
+  with.addresses = {parts_.edges->http_address};
+  with.start_anew = additions_.start_anew;
+  services.has_identity = with.identity != nullptr;
+  services.site = start_blocking(site_keeper, with);
+  services.audit =
+      start_blocking(audit_log, parts_.context, config.data_dir / "audit");
+}
+
 void node_builder::start_supervision() {
   auto& config = parts_.config;
   store_ = start_blocking(state_store, parts_.context, data_.database);
@@ -214,6 +238,9 @@ void node_builder::start_coordination() {
   setup.server_id = parts_.edges->server_id;
   setup.rebalance = config.rebalance;
   setup.ros2_set_parameters = config.ros2_set_parameters;
+  setup.require_signed_skills = config.require_signed_skills;
+  if (const auto& identity = data_.site.identity())
+    setup.check_signature = signature_check(identity);
   setup.ros_domain_id = config.ros_domain_id;
   setup.environment = parts_.edges->environment;
   setup.searches = std::make_shared<search_guard>();
@@ -256,7 +283,7 @@ session_connector_actor node_builder::start_connector() {
   return start(session_connector, parts_.context,
                connector_parts{parts_.edges->io.get(),
                                parts_.edges->sockets.heartbeat.get(),
-                               data_.site});
+                               data_.site, parts_.services->site});
 }
 
 membership_config node_builder::membership_setup() const {

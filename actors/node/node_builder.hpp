@@ -53,6 +53,7 @@ private:
   std::function<runtime_actor(container_listener_actor)> make_runtime();
   void start_images();
   void start_secrets();
+  void start_site();
   void start_supervision();
   void start_coordination();
   scheduler_actor start_scheduler(std::shared_ptr<search_guard> guard);

@@ -3,6 +3,7 @@
 #include "actors/core/edge_failure.hpp"
 #include "actors/edge/disk/data_folder.hpp"
 #include "actors/edge/trust/site_identity.hpp"
+#include "actors/node/node_identity.hpp"
 #include "messages/failure.hpp"
 #include "schemas/document.hpp"
 
@@ -134,10 +135,46 @@ caf::error check_identity(const node_config& config, const node_data& data) {
                   + " --uuid " + data.identity.uuid);
 }
 
+caf::error load_site(const node_config& config, node_data& data) {
+  auto site = load_site_secret(config);
+  if (!site)
+    return site.error();
+  data.site = std::move(*site);
+  return caf::none;
+}
+
+/// Empty: the node is new, or its record makes no sense.
+std::string uuid_in(const documents& table) {
+  const auto i = table.find("node");
+  return i == table.end() || !i->second.is_object()
+             ? std::string{}
+             : i->second.value("uuid", "");
+}
+
+/// By an invitation, or, where the site is kept on this machine, a coordinator
+/// by itself at its first start. Else the node has a token.
+/// @param uuid that of the node; empty: it is new.
+caf::error become_somebody(const node_config& config, node_data& data,
+                           const std::string& uuid) {
+  if (!config.invitation.empty()) {
+    if (auto why = take_invitation(config, uuid.empty() ? make_uuid() : uuid))
+      return why;
+  } else if (uuid.empty() && keeps_site(config)) {
+    if (auto why = issue_own_identity(config, make_uuid()))
+      return why;
+  } else {
+    return caf::none;
+  }
+  return load_site(config, data);
+}
+
 /// `existed`: the database was there before this start.
 caf::error load_identity(const node_config& config, node_data& data,
                          const documents& table, bool existed) {
   const auto i = table.find("node");
+  if (!data.site.identity())
+    if (auto why = become_somebody(config, data, uuid_in(table)))
+      return why;
   if (i == table.end() && existed && was_here(config))
     return to_caf(
         damaged_store(database_of(config), "it does not say who the node is"));
@@ -240,14 +277,6 @@ caf::error load_tables(const node_config& config, node_data& data) {
   return load_records(config, data, "removed_builds", data.remains);
 }
 
-caf::error load_site(const node_config& config, node_data& data) {
-  auto site = load_site_secret(config);
-  if (!site)
-    return site.error();
-  data.site = std::move(*site);
-  return caf::none;
-}
-
 caf::error load_tokens(const node_config& config, node_data& data) {
   data.token_file = token_of(config).string();
   auto token = load_bearer_token(token_of(config));
@@ -291,7 +320,7 @@ caf::expected<node_data> open_node_data(const node_config& config) {
   if (auto why = open_database(config, data))
     return why;
   // Who a new node is, its identity says.
-  if (!config.identity_file.empty())
+  if (has_identity_file(config))
     if (auto why = load_site(config, data))
       return why;
   if (auto why = load_self(config, data, existed))

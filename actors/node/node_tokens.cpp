@@ -5,7 +5,7 @@
 #include "actors/edge/io/crypto.hpp"
 #include "actors/edge/session/limits.hpp"
 #include "actors/edge/session/site_token.hpp"
-#include "actors/edge/trust/site_identity.hpp"
+#include "actors/node/node_identity.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>
@@ -65,30 +65,8 @@ caf::expected<std::string> load_bearer_token(const fs::path& file) {
   return token;
 }
 
-namespace {
-
-caf::expected<site_secret> load_identity_of(const node_config& config) {
-  auto read = site_identity::in_file(config.identity_file);
-  if (const auto* why = std::get_if<edge_error>(&read))
-    return to_caf(*why);
-  auto& own = std::get<std::shared_ptr<site_identity>>(read);
-  const auto wanted =
-      config.coordinator ? site_role::coordinator : site_role::node;
-  if (own->who().role != wanted)
-    return fail(error_code::schema_violation,
-                "'" + config.identity_file.string() + "' is of "
-                    + text_of(own->who()) + ", and this is a "
-                    + to_word(wanted),
-                "",
-                std::string{"`roscell site issue "} + to_word(wanted)
-                    + " NAME` makes one that fits");
-  return site_secret::of_identity(std::move(own));
-}
-
-} // namespace
-
 caf::expected<site_secret> load_site_secret(const node_config& config) {
-  if (!config.identity_file.empty())
+  if (has_identity_file(config))
     return load_identity_of(config);
   const bool given = !config.site_token_file.empty();
   const auto file = given ? config.site_token_file : own_site_token();

@@ -36,6 +36,10 @@ struct node_additions {
   /// Looks at the node's host, on a thread of its own; null: it cannot be
   /// looked at from elsewhere.
   std::function<findings()> check_host;
+  /// Has the program end this node and spawn it anew, since it has got an
+  /// identity in place of its token; from any thread. Null: that counts from
+  /// the next start on.
+  std::function<void()> start_anew;
 };
 
 /// Starts a node inside `system`, which the caller owns. Blocks until its ports

@@ -22,13 +22,16 @@ namespace roscell {
 /// coordinator nor a scheduler, and no handler that needs one.
 struct node_services {
   actor_context context;
-  std::string name; ///< Of the node.
+  std::string name;          ///< Of the node.
+  bool has_identity = false; ///< Its sessions are for nobody else to read.
   cell_coordinator_actor coordinator;
   scheduler_actor scheduler;
   container_supervisor_actor supervisor;
   exec_host_actor execs;       ///< Invalid in tests that run no commands.
   secret_keeper_actor secrets; ///< The same.
   build_keeper_actor keeper;   ///< Invalid in tests that keep none.
+  site_keeper_actor site;      ///< Invalid in tests without a site,
+  audit_log_actor audit;       ///< and without a disk.
   membership_actor membership;
   node_actor node;
   reach_prober_actor prober;

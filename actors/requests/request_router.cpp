@@ -247,6 +247,8 @@ pass_to_node(request_router_self self, const std::string& type, json document) {
   if (!coordinator)
     return pass_on(self, type, document);
   const auto node = document.value("node", "");
+  if (type == secret_setting::type && !self->state.services->has_identity)
+    return refuse_early(self, secret_in_clear(node), type);
   // The node is to know that it is meant.
   document.erase("node");
   document.erase("request_id");

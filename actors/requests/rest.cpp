@@ -3,10 +3,12 @@
 #include "actors/core/answer_limits.hpp"
 #include "actors/core/shifted_times.hpp"
 #include "actors/core/watching.hpp"
+#include "actors/requests/access/audited.hpp"
 #include "actors/requests/access/role_table.hpp"
 #include "actors/requests/metrics/scrape.hpp"
 #include "actors/requests/rest_routes.hpp"
 #include "actors/requests/rest_streams.hpp"
+#include "messages/event_kinds.hpp"
 
 #include <caf/typed_event_based_actor.hpp>
 
@@ -42,8 +44,12 @@ void finish_exchange(exchange_pointer self, const responder& answer,
   self->quit();
 }
 
+/// Calls it with the code of a refusal; empty: it was done.
+using outcome_noter = std::function<void(const std::string& refusal)>;
+
 void ask_router(exchange_pointer self, const request_router_actor& router,
-                const json_request& what, const responder& answer) {
+                const json_request& what, const responder& answer,
+                const outcome_noter& note) {
   // A router that ends leaves its requests unanswered.
   watch_until_own_end(self, router);
   self->set_down_handler([self, answer](const caf::down_msg&) {
@@ -52,7 +58,8 @@ void ask_router(exchange_pointer self, const request_router_actor& router,
   self->request(router, limits::request::router,
                 route_request{what.text, what.only, what.from})
       .then(
-          [self, answer](const request_routed& done) {
+          [self, answer, note](const request_routed& done) {
+            note(done.refusal);
             const int status = done.refusal.empty()
                                    ? 200
                                    : http_status(error_code_from(done.refusal));
@@ -60,29 +67,48 @@ void ask_router(exchange_pointer self, const request_router_actor& router,
                          with_times_shifted(done.text, to_wall_clock()));
             self->quit();
           },
-          [self, answer](const caf::error& why) {
+          [self, answer, note](const caf::error& why) {
+            note(std::string{to_word(to_failure(why).code)});
             finish_exchange(self, answer, to_failure(why));
           });
 }
 
-introspected_actor::behavior_type
-rest_exchange(exchange_pointer self, const request_router_actor& router,
-              const json_request& what, const responder& answer) {
+outcome_noter noter_of(const rest_services& services,
+                       const json_request& what) {
+  if (!services.services)
+    return [](const std::string&) {};
+  return [known = services.services, asked = audited_in(what.text),
+          from = what.from](const std::string& refusal) {
+    note_outcome(*known, asked, from, refusal);
+  };
+}
+
+introspected_actor::behavior_type rest_exchange(exchange_pointer self,
+                                                const rest_services& services,
+                                                const json_request& what,
+                                                const responder& answer) {
+  const auto note = noter_of(services, what);
   if (const auto why = refuse_by_type(what.role, what.text)) {
+    note(std::string{to_word(why->code)});
+    services.context.publish_event(
+        events::request_refused, audited_in(what.text).type,
+        {{"code", why->code}, {"message", why->message}, {"from", what.from}});
     answer.error(status_forbidden, why->code, why->message, why->hint);
     self->quit();
   } else {
-    ask_router(self, router, what, answer);
+    ask_router(self, services.router, what, answer, note);
   }
   return {
       [](const state_query&) { return state_of(json::object()); },
   };
 }
 
-/// Whoever can open the Unix socket may see it; null: it is no page.
+/// Whoever can open the Unix socket, or has an identity that may ask for it,
+/// may see it; null: it is no page.
 const web_page* page_for(const rest_services& services,
                          const http_request& request) {
-  if (!services.pages || !request.local || request.method != "GET")
+  if (!services.pages || (!request.local && request.role.empty())
+      || request.method != "GET")
     return nullptr;
   const auto found = services.pages->find(request.path);
   return found == services.pages->end() ? nullptr : &found->second;
@@ -95,7 +121,7 @@ struct route_starter {
   const responder& answer;
 
   void operator()(const json_request& x) const {
-    spawn(system, services.context, rest_exchange, services.router, x, answer);
+    spawn(system, services.context, rest_exchange, services, x, answer);
   }
 
   void operator()(const event_stream_request& x) const {

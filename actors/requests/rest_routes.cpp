@@ -1,6 +1,7 @@
 #include "actors/requests/rest_routes.hpp"
 
 #include "actors/edge/http/http_target.hpp"
+#include "schemas/document.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -174,6 +175,30 @@ rest_route query_route(const http_request& request,
   return not_found(request);
 }
 
+/// What he must not say himself is written in. What is no object is refused as
+/// such.
+std::string with_member(const std::string& body, const char* name,
+                        const std::string& value) {
+  auto parsed = parse_document(body);
+  auto* document = std::get_if<json>(&parsed);
+  if (document == nullptr || !document->is_object())
+    return body;
+  (*document)[name] = value;
+  return document->dump();
+}
+
+/// Of one who comes for an identity.
+rest_route entry_route(const http_request& request) {
+  const auto what = request.path.substr(site_path.size());
+  if (what == "entry")
+    return json_request{with_member(request.body, "exported", request.exported),
+                        "site_entry", request.from};
+  if (what == "renewal")
+    return json_request{with_member(request.body, "peer", request.peer),
+                        "site_renewal", request.from};
+  return not_found(request);
+}
+
 } // namespace
 
 rest_route route_of(const http_request& request) {
@@ -184,6 +209,8 @@ rest_route route_of(const http_request& request) {
   if (request.method == "POST") {
     if (request.path == "/v1/requests")
       return json_request{request.body, "", request.from, request.role};
+    if (request.role == newcomer_role)
+      return entry_route(request);
     // Open to unauthenticated peers: what it takes is proven in itself.
     if (request.path == registration_path)
       return json_request{request.body, "registration_switch", request.from};

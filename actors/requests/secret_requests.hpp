@@ -16,6 +16,9 @@ namespace roscell {
 std::optional<failure> refuse_from_afar(const std::string& type,
                                         const std::string& from);
 
+/// Why no secret is passed on to that node, where sessions have a token.
+failure secret_in_clear(const std::string& node);
+
 /// Whether who sends it again gets the same answer: what is remembered for that
 /// has all of the request in it.
 bool may_be_remembered(const std::string& type);

@@ -24,6 +24,20 @@ failure refusal_of(const edge_error& why, const site_secret& site,
           distrust ? site_token_hint(site.file(), address) : why.hint, ""};
 }
 
+/// On the io thread: the coordinator may have what makes this node's identity
+/// count for longer.
+void note_outcome(const connector_parts& parts, note_coordinator whom,
+                  const session_result& result) {
+  if (!parts.keeper)
+    return;
+  if (const auto* session = std::get_if<established_session>(&result)) {
+    whom.uuid = session->peer.uuid;
+    whom.present = true;
+    whom.revocations = session->agreement.revocations;
+  }
+  caf::anon_send(parts.keeper, std::move(whom));
+}
+
 /// On the io thread: turns the outcome of an attempt into a message.
 session_settled settle(caf::actor_system& system, const actor_context& context,
                        const connector_parts& parts, uint64_t attempt,
@@ -51,6 +65,7 @@ caf::result<session_opened> open(session_connector_self self,
   const auto attempt = ++st.attempts;
   auto promise = self->make_response_promise<session_opened>();
   st.pending.emplace(attempt, promise);
+  const note_coordinator whom{request.address, request.uuid, false, 0};
   connect_session(*st.parts.io, {place->address, place->port, "", request.uuid},
                   {request.self.name, request.self.uuid, request.self.epoch,
                    request.role == node_role::coordinator
@@ -58,8 +73,9 @@ caf::result<session_opened> open(session_connector_self self,
                        : std::string{}},
                   st.parts.site, {},
                   [&system = self->system(), context = st.context,
-                   parts = st.parts, attempt, to = *place,
+                   parts = st.parts, attempt, to = *place, whom,
                    me = session_connector_actor{self}](session_result result) {
+                    note_outcome(parts, whom, result);
                     caf::anon_send(me, settle(system, context, parts, attempt,
                                               to, std::move(result)));
                   });

@@ -20,6 +20,7 @@ struct connector_parts {
   io_thread* io = nullptr;
   heartbeat_socket* heartbeats = nullptr;
   site_secret site;
+  site_keeper_actor keeper; ///< Hears of coordinators; invalid in tests.
 };
 
 /// Opens sessions to coordinators.

@@ -19,6 +19,9 @@ struct client_target {
   std::string host;          ///< Name or address.
   std::uint16_t port = 8420; ///< For TCP.
   std::string token;         ///< Bearer token for TCP, from DATA_DIR/token.
+  /// Who asks by TCP, at a site of identities: a file as `roscell site issue`
+  /// and `roscell login` make it. No token counts then.
+  std::string identity_file{};
 };
 
 /// A node could not be asked. `code` is "unreachable" (nobody listens, or the
@@ -52,6 +55,7 @@ private:
 /// several at once, and throws client_error.
 class client {
 public:
+  /// Throws client_error where the identity cannot be read.
   explicit client(const client_target& to);
   ~client();
   client(client&&) noexcept;

@@ -33,6 +33,9 @@ struct node_config {
   /// Clients of ROS 2 may change parameters of skills of the cell while these
   /// run; by DDS nobody proves who he is. Coordinators only.
   bool ros2_set_parameters = false;
+  /// Of a coordinator with an identity: it places nothing but builds that an
+  /// operator of its site has signed.
+  bool require_signed_skills = false;
   /// auto, process, docker[:SOCKET] or podman[:SOCKET].
   std::string runtime = "auto";
   std::filesystem::path data_dir;
@@ -45,7 +48,11 @@ struct node_config {
   std::filesystem::path site_token_file;
   /// What the node is at a site of identities, in place of a token: see
   /// `roscell site issue`. A new node has the name and UUID that it says.
+  /// Empty: DATA_DIR/identity.pem, where there is one.
   std::filesystem::path identity_file;
+  /// By what a node without an identity gets one: the line that `roscell site
+  /// invite` prints, or the name of a file with it.
+  std::string invitation;
   std::filesystem::path shim; ///< roscell-instance-shim; empty: as installed.
   /// Where process instances get cgroups: a folder of the cgroup file system,
   /// "auto" or "none".

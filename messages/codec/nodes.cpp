@@ -11,6 +11,7 @@
 #include "messages/resources.hpp"
 #include "messages/secret.hpp"
 #include "messages/session.hpp"
+#include "messages/site.hpp"
 
 namespace roscell {
 
@@ -64,6 +65,26 @@ ROSCELL_CODEC(secret_removed)
 ROSCELL_DESCRIBED(lay_out_secrets)
 ROSCELL_DESCRIBED(secrets_laid_out)
 ROSCELL_DESCRIBED(clear_secrets)
+ROSCELL_CODEC(site_query)
+ROSCELL_CODEC(invitation_row)
+ROSCELL_CODEC(site_status)
+ROSCELL_CODEC(site_invitation)
+ROSCELL_CODEC(site_invited)
+ROSCELL_CODEC(site_entry)
+ROSCELL_CODEC(site_renewal)
+ROSCELL_CODEC(site_entered)
+ROSCELL_CODEC(identity_request_query)
+ROSCELL_CODEC(identity_requested)
+ROSCELL_CODEC(identity_setting)
+ROSCELL_CODEC(identity_set)
+ROSCELL_CODEC(revocation_setting)
+ROSCELL_CODEC(revocations_set)
+ROSCELL_CODEC(audit_query)
+ROSCELL_CODEC(audit_record)
+ROSCELL_CODEC(audit_list)
+ROSCELL_DESCRIBED(note_change)
+ROSCELL_DESCRIBED(note_coordinator)
+ROSCELL_DESCRIBED(renewal_answered)
 ROSCELL_CODEC(session_request)
 ROSCELL_CODEC(session_reply)
 ROSCELL_CODEC(session_notice)

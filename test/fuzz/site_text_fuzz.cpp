@@ -1,6 +1,8 @@
 #include "actors/edge/trust/identity.hpp"
 #include "actors/edge/trust/invitation.hpp"
 #include "actors/edge/trust/revocations.hpp"
+#include "actors/edge/trust/sealed_text.hpp"
+#include "actors/edge/trust/skill_signature.hpp"
 
 #include <cstdint>
 #include <cstdlib>
@@ -16,16 +18,21 @@ struct known_site {
   certificate mine = make_site("hall", key, 1'780'000'000);
 };
 
-/// The site has signed no list but its own, whatever bytes there are.
-void read_revocations(std::string_view bytes) {
+/// The site has signed nothing, and sealed nothing, whatever bytes there are.
+void read_what_is_proved(std::string_view bytes) {
   static const known_site site;
-  if (revocation_list::read(bytes, site.mine))
+  if (revocation_list::read(bytes, site.mine) || open_sealed("a secret", bytes)
+      || std::holds_alternative<identity>(check_signature(
+          {site.mine, nullptr}, bytes, "a hash", 1'780'000'000)))
     std::abort();
+  // A request proves itself, so there are some.
+  (void)key_in_request(bytes);
 }
 
 } // namespace
 
-/// Invitations, lists of the revoked and URIs of identities.
+/// Invitations, lists of the revoked, URIs of identities, signatures of builds,
+/// sealed texts and requests for certificates.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size) {
   const std::string_view bytes{reinterpret_cast<const char*>(data), size};
@@ -40,6 +47,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
     std::abort();
   if (const auto x = site_in(bytes); x && uri_of_site(*x) != bytes)
     std::abort();
-  read_revocations(bytes);
+  read_what_is_proved(bytes);
   return 0;
 }

@@ -16,6 +16,7 @@
 #include "messages/reservation.hpp"
 #include "messages/secret.hpp"
 #include "messages/session.hpp"
+#include "messages/site.hpp"
 #include "messages/task_set.hpp"
 #include "messages/topic.hpp"
 #include "schemas/document.hpp"
@@ -115,6 +116,11 @@ std::vector<trial> message_trials() {
                parameters_set>(result);
   try_messages<secret_setting, secret_set, secret_query, secret_list,
                secret_removal, secret_removed>(result);
+  try_messages<site_query, site_status, site_invitation, site_invited,
+               site_entry, site_renewal, site_entered, identity_request_query,
+               identity_requested, identity_setting, identity_set,
+               revocation_setting, revocations_set, audit_query, audit_list>(
+      result);
   try_messages<image_request, image_offered, image_query, image_known,
                image_sharing, image_shared>(result);
   try_messages<exec_request, exec_started, exec_input, exec_input_taken,

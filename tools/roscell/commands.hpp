@@ -50,6 +50,7 @@ void add_skill_show_command(CLI::App& skills, action& chosen);
 void add_skill_new_command(CLI::App& skills, action& chosen);
 void add_skill_check_command(CLI::App& skills, action& chosen);
 void add_skill_add_command(CLI::App& skills, action& chosen);
+void add_skill_sign_command(CLI::App& skills, action& chosen);
 void add_skill_pull_command(CLI::App& skills, action& chosen);
 void add_skill_remove_command(CLI::App& skills, action& chosen);
 
@@ -75,8 +76,10 @@ void add_events_command(CLI::App& app, action& chosen);
 void add_logs_command(CLI::App& app, action& chosen);
 void add_exec_command(CLI::App& app, action& chosen);
 
-/// create, issue, list and revoke, below `site`.
+/// What makes and looks after a site of identities, below `site`.
 void add_site_command(CLI::App& app, action& chosen);
+void add_login_command(CLI::App& app, action& chosen);
+void add_audit_command(CLI::App& app, action& chosen);
 
 /// set, list and remove, below `secret`.
 void add_secret_command(CLI::App& app, action& chosen);

@@ -76,6 +76,11 @@ void stop_signals::end() {
   eventfd_write(event_fd_, 1);
 }
 
+void stop_signals::renew() {
+  renewing_ = true;
+  end();
+}
+
 stop_signals::cause stop_signals::poll_once(int fd, int hangup_fd,
                                             int timeout_ms) {
   // A negative descriptor is passed over.
@@ -88,7 +93,7 @@ stop_signals::cause stop_signals::poll_once(int fd, int hangup_fd,
   if (fds[0].revents != 0) {
     eventfd_t ends = 0;
     eventfd_read(event_fd_, &ends);
-    return cause::ended;
+    return renewing_.exchange(false) ? cause::renewal : cause::ended;
   }
   signalfd_siginfo taken{};
   if (fds[1].revents != 0)

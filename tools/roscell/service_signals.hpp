@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <optional>
 #include <string>
@@ -17,7 +18,7 @@ class stop_signals {
 public:
   using time_point = std::chrono::steady_clock::time_point;
 
-  enum class cause { signal, ended, news, timeout, hangup };
+  enum class cause { signal, ended, news, timeout, hangup, renewal };
 
   explicit stop_signals(hangups about = hangups::ignored);
   ~stop_signals();
@@ -35,12 +36,16 @@ public:
   /// What is waited for has ended by itself; from any thread. Ends one wait.
   void end();
 
+  /// The same: it is to be made anew.
+  void renew();
+
 private:
   cause poll_once(int fd, int hangup_fd, int timeout_ms);
 
   int signal_fd_;
   int hangup_fd_ = -1; ///< Negative: SIGHUP is ignored.
   int event_fd_;
+  std::atomic<bool> renewing_{false};
 };
 
 /// Tells whoever started this process that it is ready and that it stops: the

@@ -90,6 +90,20 @@ private:
   std::vector<std::pair<std::string, std::string>> nodes_;
 };
 
+/// What lies on nodes unsigned, or was added before signatures were asked for.
+void leave_out_unsigned(const cell_coordinator_state& st, skill_list& list) {
+  std::set<std::string> known;
+  for (const auto& build : st.builds.of(""))
+    if (!build.signed_by.empty())
+      known.insert(build.build.hash);
+  auto& all = list.skills;
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [&](const skill_row& row) {
+                             return known.count(row.skill.hash) == 0;
+                           }),
+            all.end());
+}
+
 } // namespace
 
 std::string new_build_key() {
@@ -195,6 +209,8 @@ skill_list skills_within_reach(const cell_coordinator_state& st) {
   reach_writer writer{st, result};
   for (const auto& build : st.builds.of(""))
     writer.add(build);
+  if (st.setup.require_signed_skills)
+    leave_out_unsigned(st, result);
   return result;
 }
 

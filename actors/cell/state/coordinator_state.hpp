@@ -65,6 +65,12 @@ struct coordinator_setup {
   /// What instances of this cell find in their environment.
   std::map<std::string, std::string> environment;
   bool ros2_set_parameters = false; ///< See `let_ros2_set_parameters`.
+  /// Who has signed that build, or why it counts as signed by nobody; null:
+  /// this node cannot tell.
+  std::function<std::variant<std::string, failure>(
+      const std::string& hash, const std::string& signature)>
+      check_signature;
+  bool require_signed_skills = false; ///< Nothing else is placed.
   /// Towards other coordinators and nodes in no cell; all invalid in a cell
   /// that is alone.
   discovery_actor discovery;

@@ -42,4 +42,15 @@ constexpr size_t about_bytes = 16 * kib;
 
 } // namespace history
 
+/// Who has changed what.
+namespace audit {
+
+/// Of each of the two files: some ten thousand records together.
+constexpr size_t file_bytes = 2 * mib;
+/// Records in one answer.
+constexpr size_t newest = 1000;
+constexpr size_t text_bytes = 256; ///< Longest text of a record.
+
+} // namespace audit
+
 } // namespace roscell::limits

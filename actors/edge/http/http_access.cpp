@@ -1,6 +1,7 @@
 #include "actors/edge/http/http_access.hpp"
 
 #include "actors/edge/io/crypto.hpp"
+#include "actors/edge/io/plain_text.hpp"
 
 #include <algorithm>
 #include <string_view>
@@ -30,6 +31,20 @@ std::string_view bearer_token(const http::request_header<>& x) {
 bool has_token(const http_access& access, const http::request_header<>& x) {
   return !access.token.empty()
          && equal_in_constant_time(bearer_token(x), access.token);
+}
+
+/// Browsers send all that they have for a host, whatever its port.
+bool has_cookie(const http_access& access, const http::request_header<>& x) {
+  const auto wanted = access.cookie_name + "=" + access.cookie_value;
+  auto rest = value_of(x, http::field::cookie);
+  bool result = false;
+  while (!rest.empty()) {
+    auto one = take_until(rest, ';');
+    while (!one.empty() && one.front() == ' ')
+      one.remove_prefix(1);
+    result = equal_in_constant_time(one, wanted) || result;
+  }
+  return result && !access.cookie_value.empty();
 }
 
 /// Whether the server is called as it may be, whatever the port.
@@ -88,12 +103,18 @@ find_caller(const http_access& access, const http::request_header<>& x,
                         "the Host header does not name this server", ""};
   if (has_token(access, x) || has_permit(access, x, path, from))
     return http_caller::trusted;
-  if (access.has_secret(path)) {
-    if (is_of_foreign_page(x))
-      return http_refusal{403, error_code::unauthorized,
-                          "a page from elsewhere may not ask this server", ""};
+  const bool knows = has_cookie(access, x);
+  const bool links = access.has_secret(path);
+  if ((knows || links) && is_of_foreign_page(x))
+    return http_refusal{403, error_code::unauthorized,
+                        "a page from elsewhere may not ask this server", ""};
+  if (links && (knows || !access.link_spent))
+    return http_caller::follows_link;
+  if (links)
+    return http_refusal{401, error_code::unauthorized,
+                        "this link was good once", "ask for another one"};
+  if (knows)
     return http_caller::trusted;
-  }
   if (contains(access.public_paths, path))
     return http_caller::unauthenticated_peer;
   return http_refusal{

@@ -17,8 +17,10 @@ namespace roscell {
 /// INTERNAL to this folder: who may ask a server for what by TCP. The Unix
 /// socket's clients may ask for all.
 struct http_access {
-  std::string token;       ///< The bearer token; empty: nobody has it.
-  std::string path_secret; ///< Begins a path in its stead; empty: none does.
+  std::string token; ///< The bearer token; empty: nobody has it.
+  /// Begins the path of a link that is good once, for the cookie below; empty:
+  /// there is none.
+  std::string path_secret;
   std::vector<std::string> hosts;        ///< The server's names; empty: any.
   std::vector<std::string> public_paths; ///< For everybody.
   /// Whether a bearer token lets who asks from an address read this path, and
@@ -26,6 +28,12 @@ struct http_access {
   std::function<bool(const std::string& path, std::string_view token,
                      const std::string& from)>
       permits;
+
+  /// What a browser that has followed the link shows from then on: its name
+  /// and value, another one for each server.
+  std::string cookie_name = "roscell";
+  std::string cookie_value;
+  bool link_spent = false;
 
   /// Whether a path begins with the secret.
   bool has_secret(const std::string& path) const;
@@ -45,7 +53,8 @@ struct http_refusal {
 /// Whom a request comes from that is not refused.
 enum class http_caller {
   unauthenticated_peer, ///< Who asks for a public path.
-  trusted,              ///< Who has shown the token or the secret.
+  trusted,              ///< Who has shown the token or the cookie.
+  follows_link,         ///< Who is to get the cookie, and to go on with that.
 };
 
 /// What else lets who asks from an address read this path; the header may hold

@@ -33,18 +33,25 @@ size_t body_bytes_for(const std::string& path, const http_limits& limits) {
   return manifest ? limits::http::manifest_bytes : limits.body_bytes;
 }
 
+/// As a header may say it, with its slashes.
+std::string percent_encoded_path(const std::string& path) {
+  std::string result;
+  size_t begin = 0;
+  for (size_t i = 0; i <= path.size(); ++i)
+    if (i == path.size() || path[i] == '/') {
+      result += percent_encode(path.substr(begin, i - begin));
+      result += i < path.size() ? "/" : "";
+      begin = i + 1;
+    }
+  // Two slashes would name another host.
+  return result.substr(0, 2) == "//" ? "/" : result;
+}
+
 /// Static: the connection's own buffer is for replies.
 constexpr std::string_view go_on = "HTTP/1.1 100 Continue\r\n\r\n";
 
 std::string_view to_view(boost::beast::string_view text) {
   return {text.data(), text.size()};
-}
-
-/// "operator anna at 10.0.0.3:40112"
-void name_peer(const identity& who, stream_socket& socket,
-               http_request& request) {
-  request.role = to_word(who.role);
-  request.from = request.role + " " + who.name + " at " + peer_name(socket);
 }
 
 } // namespace
@@ -195,12 +202,14 @@ bool http_connection::on_header() {
                    "the method is neither GET nor POST");
     return false;
   }
-  if (target->path == session_path && !local_) {
+  if (target->path == session_path && !local_ && !newcomer_) {
     begin_session();
     return false;
   }
   if (local_)
     return admit(target->path);
+  if (newcomer_)
+    return check_body(shared_->limits.public_body_bytes);
   if (peer_)
     return admit_peer(target->path);
   const auto caller = find_caller(shared_->access, request, target->path,
@@ -211,7 +220,25 @@ bool http_connection::on_header() {
   }
   if (std::get<http_caller>(caller) == http_caller::unauthenticated_peer)
     return check_body(shared_->limits.public_body_bytes);
+  if (std::get<http_caller>(caller) == http_caller::follows_link) {
+    lead_on(target->path);
+    return false;
+  }
   return admit(target->path);
+}
+
+/// To the same page, without the secret, which is worth nothing any more. No
+/// program of the page reads the cookie, and no other page's request has it.
+void http_connection::lead_on(const std::string& path) {
+  auto& access = shared_->access;
+  access.link_spent = true;
+  more_head_ =
+      "\r\nLocation: " + percent_encoded_path(access.without_secret(path))
+      + "\r\nSet-Cookie: " + access.cookie_name + "=" + access.cookie_value
+      + "; Path=/; HttpOnly; SameSite=Strict";
+  phase_ = phase::answering;
+  last_reply_ = true;
+  reply({303, "text/plain", ""});
 }
 
 /// What he may, the handler knows by his role.
@@ -278,17 +305,13 @@ void http_connection::dispatch() {
   auto target = parse_target(to_view(message.target()));
   http_request request;
   request.method = std::string{to_view(message.method_string())};
-  request.path = local_ ? std::move(target->path)
-                        : shared_->access.without_secret(target->path);
+  request.path = std::move(target->path);
   request.query = std::move(target->query);
   request.body = std::move(message.body());
   request.accept = std::string{to_view(message[http::field::accept])};
   request.local = local_;
   request.permitted = permitted_;
-  if (peer_)
-    name_peer(*peer_, socket_.bare(), request);
-  else if (request.method == "POST")
-    request.from = peer_name(socket_.bare());
+  name_caller(request);
   responder answer{make_sink(shared_, weak_from_this())};
   shared_->core->guarded(
       [&] { shared_->handler(std::move(request), std::move(answer)); });
@@ -320,7 +343,7 @@ void http_connection::reply(http_reply reply) {
   phase_ = phase::writing;
   last_reply_ = last_reply_ || shared_->draining || !parser_->is_done()
                 || !parser_->keep_alive();
-  outgoing_ = reply_head(reply, last_reply_);
+  outgoing_ = reply_head(reply, last_reply_, std::exchange(more_head_, {}));
   // The answer to a HEAD request has no body.
   if (!parser_->is_header_done() || parser_->get().method() != http::verb::head)
     outgoing_body_ = std::move(reply.body);

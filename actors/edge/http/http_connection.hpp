@@ -74,6 +74,8 @@ private:
   void begin_requests();
   bool admit(const std::string& path);
   bool admit_peer(const std::string& path);
+  void lead_on(const std::string& path);
+  void name_caller(http_request& request);
   void next_request();
   void limit(std::chrono::milliseconds time);
   void on_time_limit();
@@ -100,6 +102,7 @@ private:
   std::optional<parser> parser_;
   std::string outgoing_; ///< The head of a reply, then its body.
   std::string outgoing_body_;
+  std::string more_head_; ///< Of the next reply, each line after its break.
   std::shared_ptr<stream_connection> stream_;
   std::weak_ptr<session_accept> session_;
   clock::time_point last_heard_ = clock::now();
@@ -109,6 +112,7 @@ private:
   handshake_queue::ticket hands_ = 0; ///< 0: none.
   bool permitted_ = false;            ///< To read the path that is asked for.
   std::optional<identity> peer_;      ///< Who has proved it by TLS.
+  bool newcomer_ = false;             ///< He comes for an identity.
   size_t lingered_bytes_ = 0;
   size_t body_limit_ = 0; ///< Of the request that is being read.
 };

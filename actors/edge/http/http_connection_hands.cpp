@@ -1,6 +1,9 @@
 #include "actors/edge/http/http_connection.hpp"
 #include "actors/edge/http/http_shared.hpp"
+#include "actors/edge/io/crypto.hpp"
+#include "actors/edge/trust/invitation.hpp"
 #include "actors/edge/trust/limits.hpp"
+#include "actors/edge/trust/site_identity.hpp"
 
 #include <utility>
 
@@ -38,9 +41,11 @@ void http_connection::on_proved(const std::optional<distrusted>& why) {
   if (phase_ != phase::proving)
     return;
   shared_->hands.leave(std::exchange(hands_, 0));
-  if (!why)
+  if (!why) {
     peer_ = socket_.tls()->peer();
-  if (peer_)
+    newcomer_ = socket_.tls()->protocol() == entry_protocol;
+  }
+  if (peer_ || (newcomer_ && shared_->identity->expects_newcomers()))
     return begin_requests();
   const distrusted nobody{
       distrust::no_certificate, "it shows no certificate", {}};
@@ -51,6 +56,24 @@ void http_connection::on_proved(const std::optional<distrusted>& why) {
     });
   // What was said of it by TLS is on its way.
   linger();
+}
+
+/// "operator anna at 10.0.0.3:40112"
+void http_connection::name_caller(http_request& request) {
+  const auto at = peer_name(socket_.bare());
+  if (newcomer_) {
+    request.role = newcomer_role;
+    request.from = "newcomer at " + at;
+    request.exported = to_hex(socket_.tls()->exported(invitation_label));
+    const auto chain = socket_.tls()->peer_chain();
+    if (peer_ && !chain.empty())
+      request.peer = chain.front().pem();
+  } else if (peer_) {
+    request.role = to_word(peer_->role);
+    request.from = request.role + " " + peer_->name + " at " + at;
+  } else if (request.method == "POST") {
+    request.from = at;
+  }
 }
 
 } // namespace roscell

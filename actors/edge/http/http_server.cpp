@@ -3,6 +3,7 @@
 #include "actors/edge/http/http_connection.hpp"
 #include "actors/edge/http/http_shared.hpp"
 #include "actors/edge/http/limits.hpp"
+#include "actors/edge/io/crypto.hpp"
 #include "actors/edge/io/sockets.hpp"
 
 #include <mutex>
@@ -169,6 +170,11 @@ http_server::start(io_thread& io, http_server_options options) {
   shared->access = {std::move(options.token), std::move(options.path_secret),
                     std::move(options.hosts), std::move(options.public_paths),
                     std::move(options.permits)};
+  if (tcp && !shared->access.path_secret.empty()) {
+    constexpr size_t cookie_bytes = 16;
+    shared->access.cookie_name += "-" + std::to_string(tcp->port);
+    shared->access.cookie_value = to_hex(random_bytes(cookie_bytes));
+  }
   shared->handler = std::move(options.handler);
   shared->identity = std::move(options.identity);
   shared->on_distrusted = std::move(options.on_distrusted);

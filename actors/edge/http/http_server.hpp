@@ -24,8 +24,9 @@ struct http_server_options {
   std::string socket_path;           ///< Of the Unix socket; empty: none.
   /// Bearer token that TCP clients must show; if empty, none is let in.
   std::string token;
-  /// TCP clients whose paths begin with it and a slash need no token; it is
-  /// taken off. Empty: there is none.
+  /// The first TCP client whose path begins with it and a slash is led to the
+  /// path without it, and gets a cookie that counts as a token from then on.
+  /// Empty: there is none.
   std::string path_secret;
   /// Hosts that a TCP client may call this server by; empty: any. A page of
   /// another origin whose name leads here is refused by it.

@@ -178,14 +178,15 @@ make_sink(std::shared_ptr<http_shared> shared,
                                            std::move(connection));
 }
 
-std::string reply_head(const http_reply& reply, bool is_last) {
+std::string reply_head(const http_reply& reply, bool is_last,
+                       const std::string& more) {
   const auto reason = boost::beast::http::obsolete_reason(
       boost::beast::http::int_to_status(static_cast<unsigned>(reply.status)));
   std::string text = "HTTP/1.1 " + std::to_string(reply.status) + " ";
   text += std::string_view{reason.data(), reason.size()};
   text += "\r\nContent-Type: " + reply.content_type;
   text += "\r\nContent-Length: " + std::to_string(reply.body.size());
-  text += "\r\nCache-Control: no-store";
+  text += "\r\nCache-Control: no-store" + more;
   if (reply.content_type.rfind("text/html", 0) == 0)
     text += page_rules;
   if (reply.status == 401)

@@ -120,7 +120,9 @@ make_sink(std::shared_ptr<http_shared> shared,
           std::weak_ptr<http_connection> connection);
 
 /// Status line and header fields of a reply that is not a stream.
-std::string reply_head(const http_reply& reply, bool is_last);
+/// @param more further lines, each after its line break.
+std::string reply_head(const http_reply& reply, bool is_last,
+                       const std::string& more = {});
 
 /// INTERNAL to this folder: takes connections from one listening socket.
 /// Io thread only.

@@ -31,6 +31,9 @@ inline constexpr std::string_view session_path = "/v1/session";
 /// proven in itself.
 inline constexpr const char* registration_path = "/v1/registration";
 
+/// Where those come who want an identity: "entry" or "renewal" follows.
+inline constexpr std::string_view site_path = "/v1/site/";
+
 /// Below it are the builds of skills that a node has.
 inline constexpr std::string_view builds_path = "/v1/builds/";
 

@@ -24,7 +24,14 @@ struct http_request {
   std::string role; ///< At the site, as his identity says; empty: he has none.
   /// What he shows lets him read this path whatever his role is.
   bool permitted = false;
+  /// Of one who comes for an identity: keying material of his connection, in
+  /// hexadecimal, and what he has shown, if anything.
+  std::string exported;
+  std::string peer; ///< A certificate, as PEM.
 };
+
+/// The role of one who comes for an identity, with none or one that has ended.
+inline constexpr const char* newcomer_role = "newcomer";
 
 struct http_reply {
   int status = 200;

@@ -125,6 +125,14 @@ private:
       return fail(*why);
     if (ec == ws::error::upgrade_declined)
       return fail(declined());
+    if (ec == boost::beast::http::error::end_of_stream
+        && stream().next_layer().tls() == nullptr)
+      return fail({error_code::unreachable,
+                   name_of(target_)
+                       + " ends the connection without a word, as a site of "
+                         "identities does to who has a token: `roscell site "
+                         "invite` lets a node in",
+                   ""});
     fail({error_code::unreachable,
           name_of(target_) + " does not answer as a node: " + ec.message(),
           ""});

@@ -1,6 +1,7 @@
 #include "actors/edge/session/session_dialog.hpp"
 
 #include "actors/edge/io/node_time.hpp"
+#include "actors/edge/trust/site_identity.hpp"
 
 #include <boost/asio/buffer.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
@@ -23,6 +24,15 @@ constexpr const char* time_header = "Roscell-Time";
 constexpr int64_t noticed_ms = 2000;
 /// The year 9999.
 constexpr int64_t latest_time_ms = 253'402'300'799'000;
+
+/// Its joiners fetch a newer list of the revoked than theirs.
+acceptor_identity with_list(const session_acceptor& x) {
+  auto result = x.identity;
+  if (const auto& own = x.site.identity())
+    if (const auto list = own->trust().site.revoked)
+      result.revocations = list->number();
+  return result;
+}
 
 } // namespace
 
@@ -204,7 +214,7 @@ session_accept::session_accept(std::shared_ptr<io_core> core,
     : session_dialog(std::move(core), std::move(socket), acceptor->options),
       acceptor_(std::move(acceptor)), hooks_(std::move(reported)),
       peer_(peer_of(stream().next_layer().bare())),
-      handshake_(acceptor_->identity,
+      handshake_(with_list(*acceptor_),
                  proved_peer() ? shared_secret() : acceptor_->site.text()) {
   tune_for_session(stream().next_layer().bare(), options().user_timeout);
 }

@@ -112,6 +112,7 @@ acceptor_handshake::acceptor_handshake(acceptor_identity self,
   challenge_.uuid = std::move(self.uuid);
   challenge_.cell = std::move(self.cell);
   challenge_.incarnation = self.incarnation;
+  agreement_.revocations = self.revocations;
   challenge_.nonce = std::move(nonce);
 }
 
@@ -156,7 +157,8 @@ handshake_step acceptor_handshake::on_proof(std::string_view frame) {
   agreement_.keys.receive =
       keyed_digest(token_, joiner_heartbeat_label, hello_, challenge_);
   handshake_step step;
-  step.reply = encode(session_accepted{agreement_.session});
+  step.reply =
+      encode(session_accepted{agreement_.session, agreement_.revocations});
   step.done = true;
   return step;
 }
@@ -225,8 +227,10 @@ handshake_step joiner_handshake::on_accepted(std::string_view frame) {
   if (auto* error = std::get_if<edge_error>(&decoded))
     return fail(*error, false);
   agreement_.session = session_id(token_, hello_, challenge_);
-  if (std::get<session_accepted>(decoded).session != agreement_.session)
+  const auto& accepted = std::get<session_accepted>(decoded);
+  if (accepted.session != agreement_.session)
     return fail(wrong_token(hello_, challenge_), false);
+  agreement_.revocations = accepted.revocations;
   agreement_.keys.send =
       keyed_digest(token_, joiner_heartbeat_label, hello_, challenge_);
   agreement_.keys.receive =

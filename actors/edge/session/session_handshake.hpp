@@ -42,6 +42,7 @@ struct acceptor_identity {
   std::string uuid;
   std::string cell;
   int64_t incarnation = 0;
+  int64_t revocations = 0; ///< Number of its list of the revoked; 0: none.
 };
 
 /// Keys of the heartbeat of one session, one per direction, so that a packet
@@ -55,6 +56,7 @@ struct heartbeat_keys {
 struct session_agreement {
   std::string session; ///< 16 hexadecimal digits, unique by its nonces.
   heartbeat_keys keys;
+  int64_t revocations = 0; ///< Number of the acceptor's list of the revoked.
 };
 
 /// One step of a side: send `reply` if there is one; then, if there is a

@@ -105,7 +105,7 @@ bool are_signed(const site_trust& trust,
 verdict check_revoked(const site_trust& trust,
                       const std::vector<certificate>& chain) {
   for (const auto& x : chain)
-    if (trust.revoked && trust.revoked->contains(x.serial()))
+    if (trust.revoked && trust.revoked->revokes(x))
       return distrusted{
           distrust::revoked,
           "the certificate of " + text_of(*x.who()) + " was revoked",
@@ -127,7 +127,7 @@ verdict check_times(const std::vector<certificate>& chain, int64_t now,
     if (now > x.ends_unix_s() + grace)
       return distrusted{distrust::ended,
                         "the certificate of " + text_of(*x.who())
-                            + " has ended",
+                            + " has ended, by the clock of this host",
                         use == certificate_use::renewal
                             ? "`roscell site invite` lets it in anew"
                             : "a node renews its own when it finds a "

@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::string_view version = "roscell1";
 constexpr size_t max_addresses = 8;
-constexpr size_t id_digits = 16;
 
 bool is_hex(std::string_view text, size_t digits) {
   return text.size() == digits
@@ -105,19 +104,25 @@ bool speaks_of(const invitation& x, const std::string& certificate_digest) {
          && certificate_digest.compare(0, x.digest.size(), x.digest) == 0;
 }
 
-std::string id_of_invitation(const std::string& secret) {
-  return sha256_hex("roscell invitation " + secret).substr(0, id_digits);
+std::string proving_half(const std::string& secret) {
+  return to_hex(hmac_sha256(secret, "roscell invitation proof"))
+      .substr(0, invitation_digits);
 }
 
-std::string prove_invitation(const std::string& secret,
+std::string id_of_invitation(const std::string& proving) {
+  return sha256_hex("roscell invitation " + proving)
+      .substr(0, invitation_digits);
+}
+
+std::string prove_invitation(const std::string& proving,
                              std::string_view exported) {
-  return to_hex(hmac_sha256(secret, exported));
+  return to_hex(hmac_sha256(proving, exported));
 }
 
-bool proves_invitation(const std::string& secret, std::string_view exported,
+bool proves_invitation(const std::string& proving, std::string_view exported,
                        std::string_view proof) {
-  return !secret.empty()
-         && equal_in_constant_time(prove_invitation(secret, exported), proof);
+  return !proving.empty()
+         && equal_in_constant_time(prove_invitation(proving, exported), proof);
 }
 
 } // namespace roscell

@@ -39,15 +39,23 @@ std::optional<invitation> read_invitation(std::string_view line,
 /// Whether that is the certificate, by its digest, which it speaks of.
 bool speaks_of(const invitation& x, const std::string& certificate_digest);
 
-/// By what a coordinator knows which of its invitations is meant; it tells
-/// nothing of the secret.
-std::string id_of_invitation(const std::string& secret);
+/// What is made of the secret for whoever keeps the invitation: by it a proof
+/// is checked, and nothing is opened that was sealed under the secret itself.
+std::string proving_half(const std::string& secret);
 
-/// A proof that one has the secret, good in one connection only.
+/// By what a coordinator knows which of its invitations is meant; it tells
+/// nothing of the half that proves.
+std::string id_of_invitation(const std::string& proving);
+
+/// A proof that one has it, good in one connection only.
+/// @param proving see `proving_half`.
 /// @param exported keying material of that connection (RFC 8446, 7.5).
-std::string prove_invitation(const std::string& secret,
+std::string prove_invitation(const std::string& proving,
                              std::string_view exported);
-bool proves_invitation(const std::string& secret, std::string_view exported,
+bool proves_invitation(const std::string& proving, std::string_view exported,
                        std::string_view proof);
+
+/// Names that keying material.
+constexpr const char* invitation_label = "EXPORTER-roscell-invitation";
 
 } // namespace roscell

@@ -14,9 +14,11 @@ namespace roscell {
 
 /// An invitation as whoever has made it keeps it.
 struct open_invitation {
-  std::string id;     ///< See `id_of_invitation`.
-  std::string secret; ///< 32 hexadecimal digits.
-  std::string name;   ///< The node that it is for; empty: any.
+  std::string id;      ///< See `id_of_invitation`.
+  std::string proving; ///< See `proving_half`.
+  std::string name;    ///< The node that it is for; empty: any.
+  std::string role = "node";
+  std::string deposit; ///< What the newcomer gets in place of a certificate.
   int64_t made_unix_ms = 0;
   std::chrono::steady_clock::time_point until;
 };

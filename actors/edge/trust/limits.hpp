@@ -42,6 +42,8 @@ constexpr seconds handshake{10};
 constexpr size_t invitations = 256;
 constexpr seconds invitation{24 * 60 * 60};
 constexpr size_t invitation_bytes = 512;
+/// Longest answer to one who comes with an invitation.
+constexpr size_t admission_bytes = 1024 * kib;
 
 /// Certificates that a site can have revoked. Those that have ended for good
 /// make room.

@@ -21,13 +21,14 @@ constexpr size_t read_bytes = 16 * 1024;
 // -- the handshake ------------------------------------------------------------
 
 void link_core::secure(const std::shared_ptr<site_identity>& own,
-                       tls_engine::role as, verdict done) {
+                       tls_engine::role as, verdict done,
+                       const char* protocol) {
   error ignored;
   bare.non_blocking(true, ignored);
   own_ = own;
   on_secured_ = std::move(done);
   // Whoever accepts has nothing to compute before something came.
-  auto made = std::make_shared<tls_engine>(own->settings(), as);
+  auto made = std::make_shared<tls_engine>(own->settings(), as, protocol);
   if (as == tls_engine::role::accepts)
     hear_hands(made);
   else
@@ -92,10 +93,32 @@ void link_core::hear_hands(const engine& x) {
 
 void link_core::conclude(const engine& x,
                          const std::optional<distrusted>& why) {
-  if (!why)
+  if (!why) {
     tls = x;
+    watch_peer();
+  }
   const auto done = std::exchange(on_secured_, nullptr);
   io_->guarded([&] { done(why); });
+}
+
+/// Who is revoked loses what he has, not only what he would begin. Whoever uses
+/// this sees it as the other end's doing.
+void link_core::watch_peer() {
+  const auto chain = tls->peer_chain();
+  if (chain.empty())
+    return;
+  watch_ = own_->watch(chain.front(), [io = io_, weak = weak_from_this()] {
+    io->post([weak] {
+      error ignored;
+      if (const auto self = weak.lock())
+        self->bare.shutdown(stream_socket::shutdown_both, ignored);
+    });
+  });
+}
+
+void link_core::forget_watch() {
+  if (const auto ticket = std::exchange(watch_, std::nullopt))
+    own_->unwatch(*ticket);
 }
 
 // -- what is said inside ------------------------------------------------------
@@ -186,6 +209,7 @@ void link_core::shut_sending() {
 void link_core::close() {
   // It may hold whoever holds this, until the end of this call.
   const auto forgotten = std::exchange(on_secured_, nullptr);
+  forget_watch();
   close_now(bare);
 }
 

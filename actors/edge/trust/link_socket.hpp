@@ -7,6 +7,7 @@
 
 #include <boost/asio/buffer.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -29,11 +30,18 @@ public:
   }
 
   void secure(const std::shared_ptr<site_identity>& own, tls_engine::role as,
-              verdict done);
+              verdict done, const char* protocol);
   void read(boost::asio::mutable_buffer into, action done);
   void write(std::string_view bytes, action done);
   void shut_sending();
   void close();
+
+  ~link_core() {
+    forget_watch();
+  }
+
+  link_core(const link_core&) = delete;
+  link_core& operator=(const link_core&) = delete;
 
   stream_socket bare;
   std::shared_ptr<tls_engine> tls; ///< Null: what is said is plain.
@@ -46,12 +54,15 @@ private:
   void hear_hands(const engine& x);
   void conclude(const engine& x, const std::optional<distrusted>& why);
   void wait_for_bytes(boost::asio::mutable_buffer into, action done);
+  void watch_peer();
+  void forget_watch();
   bool take_bytes(const engine& x, error& ec);
   std::optional<error> decrypt(boost::asio::mutable_buffer into, size_t& size);
 
   std::shared_ptr<io_core> io_;
   std::shared_ptr<site_identity> own_;
   verdict on_secured_; ///< May hold whoever owns this.
+  std::optional<uint64_t> watch_;
   std::string outgoing_;
 };
 
@@ -93,9 +104,10 @@ public:
   /// once with why it has come to nothing, unless this is closed before; none:
   /// it is secure, and whoever is at the other end is of the site, or has shown
   /// nothing. Nothing else may be done meanwhile.
+  /// @param protocol see `tls_engine`.
   void secure(const std::shared_ptr<site_identity>& own, tls_engine::role as,
-              link_core::verdict done) {
-    core_->secure(own, as, std::move(done));
+              link_core::verdict done, const char* protocol = http_protocol) {
+    core_->secure(own, as, std::move(done), protocol);
   }
 
   /// Null: what is said is plain.

@@ -4,7 +4,9 @@
 #include "actors/edge/io/plain_text.hpp"
 #include "actors/edge/trust/limits.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <utility>
 
 namespace roscell {
@@ -14,6 +16,7 @@ namespace {
 constexpr std::string_view first_line = "roscell-revoked 1";
 constexpr std::string_view number_word = "number ";
 constexpr std::string_view signature_word = "signature ";
+constexpr std::string_view owner_word = "owner ";
 constexpr size_t max_serial_digits = 40;
 
 std::optional<int64_t> number_in(std::string_view text) {
@@ -31,6 +34,13 @@ bool is_serial(std::string_view text) {
                 == std::string_view::npos;
 }
 
+bool is_owner(std::string_view text) {
+  constexpr size_t longest = 64; // See `identity_in`.
+  return !text.empty() && text.size() <= longest
+         && text.find_first_not_of("0123456789abcdefABCDEF-")
+                == std::string_view::npos;
+}
+
 /// Takes a line that begins with the word off the front; none: it does not.
 std::optional<std::string_view> take_word_line(std::string_view& text,
                                                std::string_view word) {
@@ -45,16 +55,41 @@ revocation_list::revocation_list(std::string site) : site_(std::move(site)) {
   // nop
 }
 
+bool revocation_list::revokes(const certificate& x) const {
+  if (contains(x.serial()))
+    return true;
+  const auto owner = x.who() ? owners_.find(x.who()->uuid) : owners_.end();
+  // They begin earlier than they are made.
+  return owner != owners_.end()
+         && x.begins_unix_s() + limits::trust::early_s <= owner->second;
+}
+
+/// What has ended for good makes it.
+bool revocation_list::make_room(int64_t now_unix_s) {
+  constexpr auto longest =
+      std::max(limits::trust::machine_s, limits::trust::person_s);
+  const auto drop = [](auto& all, int64_t before) {
+    for (auto i = all.begin(); i != all.end();)
+      i = i->second < before ? all.erase(i) : std::next(i);
+  };
+  drop(serials_, now_unix_s - limits::trust::renewal_s);
+  drop(owners_, now_unix_s - limits::trust::renewal_s - longest);
+  return serials_.size() + owners_.size() < limits::trust::revoked;
+}
+
 bool revocation_list::add(const std::string& serial, int64_t ends_unix_s,
                           int64_t now_unix_s) {
-  for (auto i = serials_.begin(); i != serials_.end();)
-    if (i->second + limits::trust::renewal_s < now_unix_s)
-      i = serials_.erase(i);
-    else
-      ++i;
-  if (serials_.size() >= limits::trust::revoked && !contains(serial))
+  if (!make_room(now_unix_s) && !contains(serial))
     return false;
   serials_[serial] = ends_unix_s;
+  ++number_;
+  return true;
+}
+
+bool revocation_list::add_owner(const std::string& uuid, int64_t now_unix_s) {
+  if (!make_room(now_unix_s) && owners_.count(uuid) == 0)
+    return false;
+  owners_[uuid] = now_unix_s;
   ++number_;
   return true;
 }
@@ -65,6 +100,8 @@ std::string revocation_list::text() const {
             + std::to_string(number_) + "\n";
   for (const auto& [serial, ends] : serials_)
     result += serial + " " + std::to_string(ends) + "\n";
+  for (const auto& [uuid, at] : owners_)
+    result += std::string{owner_word} + uuid + " " + std::to_string(at) + "\n";
   return result;
 }
 
@@ -75,10 +112,16 @@ std::string revocation_list::signed_text(const private_key& site_key) const {
 }
 
 bool revocation_list::take_line(std::string_view line) {
-  const auto serial = take_until(line, ' ');
-  const auto ends = number_in(line);
-  return is_serial(serial) && ends && serials_.size() < limits::trust::revoked
-         && serials_.emplace(serial, *ends).second;
+  if (serials_.size() + owners_.size() >= limits::trust::revoked)
+    return false;
+  const bool of_owner = line.substr(0, owner_word.size()) == owner_word;
+  if (of_owner)
+    line.remove_prefix(owner_word.size());
+  const auto name = take_until(line, ' ');
+  const auto when = number_in(line);
+  if (!when || !(of_owner ? is_owner(name) : is_serial(name)))
+    return false;
+  return (of_owner ? owners_ : serials_).emplace(name, *when).second;
 }
 
 std::optional<revocation_list> revocation_list::read(std::string_view text,

@@ -11,8 +11,10 @@
 namespace roscell {
 
 /// The certificates of a site that count no more, as a list with a number: of
-/// two lists the one with the higher number counts. The site has signed it, so
-/// it may come from anybody. A value.
+/// two lists the one with the higher number counts. A certificate is named by
+/// its serial, or with all that its owner had at that time by his UUID, since
+/// coordinators renew what the site has made. The site has signed it, so it may
+/// come from anybody. A value.
 class revocation_list {
 public:
   /// Number 0, nobody.
@@ -31,13 +33,24 @@ public:
     return serials_;
   }
 
+  /// UUIDs, and up to when what they had counts no more.
+  const std::map<std::string, int64_t>& owners() const noexcept {
+    return owners_;
+  }
+
   bool contains(const std::string& serial) const {
     return serials_.count(serial) > 0;
   }
 
+  /// Whether it counts no more.
+  bool revokes(const certificate& x) const;
+
   /// Adds one, under the next number. What cannot even be renewed any more is
   /// left out. False: the list is full.
   bool add(const std::string& serial, int64_t ends_unix_s, int64_t now_unix_s);
+
+  /// The same for all that he has now.
+  bool add_owner(const std::string& uuid, int64_t now_unix_s);
 
   /// As it is passed on.
   std::string signed_text(const private_key& site_key) const;
@@ -50,10 +63,12 @@ public:
 private:
   std::string text() const;
   bool take_line(std::string_view line);
+  bool make_room(int64_t now_unix_s);
 
   std::string site_;
   int64_t number_ = 0;
   std::map<std::string, int64_t> serials_;
+  std::map<std::string, int64_t> owners_;
 };
 
 } // namespace roscell

@@ -159,8 +159,16 @@ edge_result<own_identity> site_folder::issue(const identity& who,
                                              int64_t now_unix_s,
                                              int64_t good_for_s) {
   const auto key = private_key::make();
-  const auto made =
-      make_certificate(who, key.get(), {key_, site_}, now_unix_s, good_for_s);
+  auto made = certify(who, key.get(), now_unix_s, good_for_s);
+  if (auto* why = std::get_if<edge_error>(&made))
+    return *why;
+  return own_identity{key, {std::get<certificate>(std::move(made))}, site_};
+}
+
+edge_result<certificate> site_folder::certify(const identity& who,
+                                              EVP_PKEY* key, int64_t now_unix_s,
+                                              int64_t good_for_s) {
+  auto made = make_certificate(who, key, {key_, site_}, now_unix_s, good_for_s);
   issued_.push_back(
       {who, made.serial(), made.begins_unix_s(), made.ends_unix_s()});
   std::string all;
@@ -170,7 +178,7 @@ edge_result<own_identity> site_folder::issue(const identity& who,
     issued_.pop_back();
     return *why;
   }
-  return own_identity{key, {made}, site_};
+  return made;
 }
 
 std::optional<edge_error> site_folder::revoke(const issued_certificate& x,
@@ -181,13 +189,25 @@ std::optional<edge_error> site_folder::revoke(const issued_certificate& x,
                           + " is revoked already",
                       {}};
   auto longer = revoked_;
-  if (!longer.add(x.serial, x.ends_unix_s, now_unix_s))
+  const bool has_room = longer.add(x.serial, x.ends_unix_s, now_unix_s);
+  return take_list(std::move(longer), has_room);
+}
+
+std::optional<edge_error> site_folder::revoke_owner(const std::string& uuid,
+                                                    int64_t now_unix_s) {
+  auto longer = revoked_;
+  const bool has_room = longer.add_owner(uuid, now_unix_s);
+  return take_list(std::move(longer), has_room);
+}
+
+std::optional<edge_error> site_folder::take_list(revocation_list longer,
+                                                 bool has_room) {
+  if (!has_room)
     return edge_error{error_code::conflict,
                       "a site can have "
                           + std::to_string(limits::trust::revoked)
                           + " revoked certificates, and has them",
-                      "make a new site, and give what is trusted an identity "
-                      "of it"};
+                      "`roscell site rotate` begins a new list"};
   if (auto why = write(revoked_file, longer.signed_text(key_)))
     return why;
   revoked_ = std::move(longer);

@@ -52,16 +52,31 @@ public:
   edge_result<own_identity> issue(const identity& who, int64_t now_unix_s,
                                   int64_t good_for_s);
 
+  /// The same for one who has made that key himself.
+  edge_result<certificate> certify(const identity& who, EVP_PKEY* key,
+                                   int64_t now_unix_s, int64_t good_for_s);
+
   /// Revokes that certificate. Errors: conflict (it is revoked, the list is
   /// full), internal (the disk).
   std::optional<edge_error> revoke(const issued_certificate& x,
                                    int64_t now_unix_s);
+
+  /// Revokes all that whoever has that UUID has now. Errors: conflict (the list
+  /// is full), internal (the disk).
+  std::optional<edge_error> revoke_owner(const std::string& uuid,
+                                         int64_t now_unix_s);
+
+  /// The list as it is passed on.
+  std::string signed_list() const {
+    return revoked_.signed_text(key_);
+  }
 
 private:
   site_folder(std::filesystem::path folder, directory_lock lock,
               private_key key, certificate site);
 
   edge_result<site_folder> loaded() &&;
+  std::optional<edge_error> take_list(revocation_list longer, bool has_room);
   std::optional<edge_error> write(const char* name, const std::string& text);
 
   std::filesystem::path folder_;

@@ -4,7 +4,11 @@
 #include "actors/edge/trust/identity_file.hpp"
 #include "actors/edge/trust/tls_settings.hpp"
 
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -12,9 +16,10 @@
 
 namespace roscell {
 
-/// What one is at his site, and whom he believes there, as it is now: the list
-/// of the revoked is looked at before each handshake, so a longer one counts
-/// from the moment at which its file is there. From any thread.
+/// What one is at his site, and whom he believes there, as it is now: his
+/// certificate may be renewed, and the list of the revoked grow. Its file is
+/// looked at before each handshake, so a longer one counts from the moment at
+/// which it is there. From any thread.
 class site_identity {
 public:
   /// @param revoked_file signed by the site; it need not be there.
@@ -25,8 +30,9 @@ public:
   static edge_result<std::shared_ptr<site_identity>>
   in_file(const std::filesystem::path& file);
 
+  /// The same for as long as this lives.
   const identity& who() const noexcept {
-    return own_.who();
+    return who_;
   }
 
   /// SHA-256 of the site's certificate, in hexadecimal.
@@ -34,17 +40,30 @@ public:
     return site_digest_;
   }
 
-  int64_t ends_unix_s() const {
-    return own_.chain.front().ends_unix_s();
-  }
+  own_identity own() const;
+  int64_t ends_unix_s() const;
 
   /// For a connection of his.
-  const tls_settings& settings() const noexcept {
-    return *settings_;
-  }
+  tls_settings settings() const;
 
   /// Whom he believes at this moment.
   trust_now trust() const;
+
+  /// From now on he shows this, which is of the same one at the same site.
+  void renew(own_identity own);
+
+  /// Nobody of that list is believed any more, and connections of theirs end.
+  /// False: it is not newer than the one that is known.
+  bool take_revoked(revocation_list list);
+
+  /// Calls once, on any thread and maybe at once, when that certificate is
+  /// revoked, unless `unwatch` is called before.
+  uint64_t watch(const certificate& of, std::function<void()> on_revoked);
+  void unwatch(uint64_t ticket);
+
+  /// Until when somebody without an identity may come for one.
+  void expect_newcomers(std::chrono::steady_clock::time_point until);
+  bool expects_newcomers() const;
 
   /// Where his handshakes are computed.
   handshake_thread& handshakes() const noexcept {
@@ -52,14 +71,25 @@ public:
   }
 
 private:
-  void look_at_revoked() const;
+  struct watcher {
+    certificate of;
+    std::function<void()> on_revoked;
+  };
 
-  const own_identity own_;
+  tls_settings settings_of(const own_identity& own);
+  void look_at_revoked();
+  void notify_watchers();
+
+  const identity who_;
   const std::string site_digest_;
   const std::filesystem::path revoked_file_;
   mutable std::mutex mutex_; // Guards what follows.
-  mutable std::shared_ptr<const revocation_list> revoked_;
-  mutable std::filesystem::file_time_type seen_{};
+  own_identity own_;
+  std::shared_ptr<const revocation_list> revoked_;
+  std::filesystem::file_time_type seen_{};
+  std::map<uint64_t, watcher> watchers_;
+  uint64_t last_ticket_ = 0;
+  std::chrono::steady_clock::time_point newcomers_until_{};
   /// After all that its jobs use.
   std::optional<tls_settings> settings_;
   mutable handshake_thread handshakes_;

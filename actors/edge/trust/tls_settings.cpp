@@ -66,6 +66,17 @@ int alert_of(distrust why) {
   }
 }
 
+/// What is spoken inside is settled before certificates are shown.
+certificate_use use_in(const SSL* connection) {
+  const unsigned char* name = nullptr;
+  unsigned size = 0;
+  SSL_get0_alpn_selected(connection, &name, &size);
+  const std::string_view protocol{reinterpret_cast<const char*>(name), size};
+  return SSL_is_server(connection) == 1 && protocol == entry_protocol
+             ? certificate_use::renewal
+             : certificate_use::session;
+}
+
 /// In place of OpenSSL's own rules for the web.
 int check_shown(X509_STORE_CTX* shown, void*) {
   const auto* connection = static_cast<SSL*>(
@@ -78,9 +89,10 @@ int check_shown(X509_STORE_CTX* shown, void*) {
   if (chain.size() > 1 && chain.back().digest() == now.site.site.digest())
     chain.pop_back();
   const auto found =
-      chain.empty() ? std::variant<identity, distrusted>{distrusted{
-          distrust::nobody, "its certificate names nobody of a site", {}}}
-                    : check_chain(now.site, chain, now.unix_s);
+      chain.empty()
+          ? std::variant<identity, distrusted>{distrusted{
+              distrust::nobody, "its certificate names nobody of a site", {}}}
+          : check_chain(now.site, chain, now.unix_s, use_in(connection));
   auto& finding = finding_of(connection);
   if (const auto* who = std::get_if<identity>(&found)) {
     finding.who = *who;
@@ -99,7 +111,8 @@ int choose_protocol(SSL*, const unsigned char** out, unsigned char* out_size,
   for (size_t i = 0; i < offered.size();) {
     const auto size = static_cast<unsigned char>(offered[i]);
     const auto name = offered.substr(i + 1, size);
-    if (name == session_protocol || name == http_protocol) {
+    if (name == session_protocol || name == http_protocol
+        || name == entry_protocol) {
       *out = in + i + 1;
       *out_size = size;
       return SSL_TLSEXT_ERR_OK;

@@ -44,6 +44,9 @@ private:
 /// Protocols that are spoken inside, as ALPN names them.
 constexpr const char* session_protocol = "roscell/1";
 constexpr const char* http_protocol = "http/1.1";
+/// HTTP of those who come for an identity: with none, or with one that has
+/// ended.
+constexpr const char* entry_protocol = "roscell-entry/1";
 
 /// What a handshake has found out of the other end, kept with the connection
 /// that it is of. INTERNAL to this folder.

@@ -93,6 +93,11 @@ bool may_request(site_role role, std::string_view type) {
 }
 
 std::optional<failure> refuse_by_role(const http_request& request) {
+  const bool entry = begins_with(request.path, site_path);
+  if (request.role == newcomer_role && entry && request.method == "POST")
+    return std::nullopt;
+  if (entry && !request.role.empty())
+    return refusal_of(request.role, request.method + " " + request.path);
   if (request.role.empty() || request.permitted
       || may_use_path(role_of(request.role), request.method, request.path))
     return std::nullopt;

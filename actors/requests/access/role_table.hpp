@@ -14,6 +14,7 @@
 ///     viewer       what shows: no change, no log or build, no command's output
 ///     node         who a node is and where it stands; what it has a permit for
 ///     coordinator  that, and to switch a node's registration
+///     newcomer     POST below /v1/site, which nobody else may
 namespace roscell {
 
 /// Whether the role may use this method on this path.

@@ -46,6 +46,20 @@ void add_node_requests(request_registry& registry) {
       forward_within<secret_removal, secret_removed>(soon, &services::secrets));
 }
 
+/// What a node is at its site, and who has changed what on it.
+void add_site_requests(request_registry& registry) {
+  const auto whom = &services::site;
+  registry.add(forward_within<site_query, site_status>(soon, whom));
+  registry.add(forward_within<site_invitation, site_invited>(soon, whom));
+  registry.add(forward_within<site_entry, site_entered>(soon, whom));
+  registry.add(forward_within<site_renewal, site_entered>(soon, whom));
+  registry.add(
+      forward_within<identity_request_query, identity_requested>(soon, whom));
+  registry.add(forward_within<identity_setting, identity_set>(soon, whom));
+  registry.add(forward_within<revocation_setting, revocations_set>(soon, whom));
+  registry.add(forward_within<audit_query, audit_list>(soon, &services::audit));
+}
+
 void add_primary_requests(request_registry& registry) {
   registry.add(forward_or_ask_cell<instance_query, instance_description>(
       &services::supervisor, [](const instance_query&) { return soon; }));
@@ -137,6 +151,7 @@ void add_cell_requests(request_registry& registry) {
 request_registry make_registry(bool coordinator) {
   request_registry result;
   add_node_requests(result);
+  add_site_requests(result);
   if (coordinator)
     add_cell_requests(result);
   else

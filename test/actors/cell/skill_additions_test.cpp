@@ -21,6 +21,7 @@ installed_skill shout_skill(const std::string& hash = shout_hash) {
 struct shared_cell : paper_cell {
   fake_agent& arm = add("arm");
   fake_agent& leg = add("leg");
+  std::string signature;
 
   shared_cell() {
     kept_builds[shout_hash] = shout_skill();
@@ -28,7 +29,7 @@ struct shared_cell : paper_cell {
 
   json addition_of(const std::string& node = "arm",
                    const std::string& hash = shout_hash) {
-    return message_json(skill_addition{{hash, hash, 7}, node});
+    return message_json(skill_addition{{hash, hash, 7}, node, signature});
   }
 
   json add_skill(const std::string& node = "arm",
@@ -77,6 +78,40 @@ TEST_CASE_METHOD(shared_cell,
   CHECK(builds.count(shout_hash) == 1);
   CHECK(listed().size() == 1);
   CHECK(count("cell_skill_added") == 1);
+}
+
+TEST_CASE_METHOD(shared_cell,
+                 "A cell that asks for signatures places nothing unsigned",
+                 "[builds]") {
+  add_skill();
+  require_signed_skills = true;
+  begin_anew();
+  REQUIRE(enter(arm));
+  REQUIRE(enter(leg));
+  // What was added before, and what lies on nodes.
+  CHECK(run_shout("arm").at("type") == "error");
+  CHECK(request(echo_task("u", {echo_step("s0", 1, "arm")})).at("type")
+        == "error");
+  CHECK(add_skill().at("error").at("code") == "unauthorized");
+  signature = "eve " + shout_hash;
+  CHECK(add_skill().at("error").at("code") == "unauthorized");
+  signature = "ada " + shout_hash;
+  CHECK(add_skill().at("added").at("signed_by")
+        == "spiffe://hall/operator/ada/0a");
+  CHECK(builds.at(shout_hash).at("signed_by")
+        == "spiffe://hall/operator/ada/0a");
+  CHECK(run_shout("arm").at("type") != "error");
+}
+
+TEST_CASE_METHOD(shared_cell,
+                 "A signature that is none is refused wherever it comes",
+                 "[builds]") {
+  signature = "eve " + shout_hash;
+  CHECK(add_skill().at("error").at("code") == "unauthorized");
+  CHECK(listed().empty());
+  signature = "ada " + shout_hash;
+  CHECK(add_skill().at("added").at("signed_by")
+        == "spiffe://hall/operator/ada/0a");
 }
 
 TEST_CASE_METHOD(shared_cell, "The same skill again changes nothing",

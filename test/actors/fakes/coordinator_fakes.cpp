@@ -423,6 +423,14 @@ coordinator_setup paper_cell::setup(const std::vector<task_record>& tasks,
   result.supervisor = caf::actor_cast<container_supervisor_actor>(base.actor);
   result.environment = {{"ROS_DOMAIN_ID", "7"}};
   result.ros2_set_parameters = ros2_set_parameters;
+  result.require_signed_skills = require_signed_skills;
+  result.check_signature =
+      [](const std::string& hash,
+         const std::string& signature) -> std::variant<std::string, failure> {
+    if (signature == "ada " + hash)
+      return std::string{"spiffe://hall/operator/ada/0a"};
+    return failure{error_code::unauthorized, "no such signature"};
+  };
   result.store = caf::actor_cast<state_store_actor>(store);
   result.keeper = caf::actor_cast<build_keeper_actor>(build_store);
   result.build_key = "key of base";

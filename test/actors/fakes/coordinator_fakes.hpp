@@ -114,6 +114,8 @@ struct paper_cell {
   std::map<std::string, installed_skill> kept_builds;
   std::vector<std::string> dropped_builds; ///< What it was told to drop.
   bool ros2_set_parameters = false; ///< Of a coordinator that begins anew.
+  /// The same: "ada" has signed what says so.
+  bool require_signed_skills = false;
   bool disk_full = false;
   bool slow_disk = false; ///< Writes when told to.
   std::vector<std::pair<caf::response_promise, store_records>> writes;

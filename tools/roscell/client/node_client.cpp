@@ -58,7 +58,7 @@ target target_of(const connection_options& options) {
 http_endpoint endpoint_of(const target& to, const connection_options& options) {
   if (to.is_local())
     return {to.socket.string(), "", 0, ""};
-  if (auto own = find_identity(options.identity_file))
+  if (auto own = find_identity(options.identity_file, to))
     return {"", to.host, to.port, "", std::move(own)};
   return {"", to.host, to.port, find_token(options.token_file, to)};
 }

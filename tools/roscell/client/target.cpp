@@ -197,9 +197,21 @@ std::string find_token(const fs::path& file, const target& to) {
   return {};
 }
 
-std::shared_ptr<site_identity> find_identity(const fs::path& file) {
-  const auto said =
-      file.empty() ? fs::path{environment("ROSCELL_IDENTITY")} : file;
+fs::path login_file_of(const target& to) {
+  fs::path folder{"/etc/roscell"};
+  if (auto own = environment("XDG_CONFIG_HOME"); !own.empty())
+    folder = fs::path{own} / "roscell";
+  else if (auto home = environment("HOME"); !home.empty() && geteuid() != 0)
+    folder = fs::path{home} / ".config/roscell";
+  return folder / "logins" / (to.text() + ".pem");
+}
+
+std::shared_ptr<site_identity> find_identity(const fs::path& file,
+                                             const target& to) {
+  auto said = file.empty() ? fs::path{environment("ROSCELL_IDENTITY")} : file;
+  std::error_code ignored;
+  if (said.empty() && fs::exists(login_file_of(to), ignored))
+    said = login_file_of(to);
   if (said.empty())
     return nullptr;
   auto read = site_identity::in_file(said);

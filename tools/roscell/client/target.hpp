@@ -47,8 +47,13 @@ target default_target();
 std::string find_token(const std::filesystem::path& file, const target& to);
 
 /// Who asks over TCP: the identity in `file` if not empty, else in that of
-/// $ROSCELL_IDENTITY, else null. Throws command_error if it cannot be read.
-std::shared_ptr<site_identity> find_identity(const std::filesystem::path& file);
+/// $ROSCELL_IDENTITY, else what `roscell login` has kept for that node, else
+/// null. Throws command_error if it cannot be read.
+std::shared_ptr<site_identity> find_identity(const std::filesystem::path& file,
+                                             const target& to);
+
+/// Where this user's identity for that node is.
+std::filesystem::path login_file_of(const target& to);
 
 /// That everybody on this machine can read a file that holds a secret, and the
 /// remedy. Empty if that is not so.

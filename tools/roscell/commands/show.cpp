@@ -288,6 +288,7 @@ void add_show_commands(CLI::App& app, action& chosen) {
   add_skill_new_command(skills, chosen);
   add_skill_check_command(skills, chosen);
   add_skill_add_command(skills, chosen);
+  add_skill_sign_command(skills, chosen);
   add_skill_remove_command(skills, chosen);
   add_skill_pull_command(skills, chosen);
   add_skill_list_command(skills, chosen);

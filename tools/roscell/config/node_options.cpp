@@ -84,6 +84,10 @@ void check_cell_options(const node_config& config) {
     throw command_error{exit_usage,
                         "--ros2-set-parameters is for a coordinator's cell",
                         "give it to the coordinator, and leave it out here"};
+  if (config.require_signed_skills)
+    throw command_error{exit_usage,
+                        "--require-signed-skills is for a coordinator's cell",
+                        "give it to the coordinator, and leave it out here"};
 }
 
 /// The ways to come into a cell exclude each other.

@@ -4,6 +4,7 @@
 #include "actors/core/watching.hpp"
 #include "actors/edge/session/site_token.hpp"
 #include "actors/node/event_series.hpp"
+#include "actors/node/node_identity.hpp"
 #include "messages/event_kinds.hpp"
 #include "messages/messages.hpp"
 #include "tools/roscell/client/target.hpp"
@@ -78,10 +79,10 @@ void introduce(const running_node& node, const node_config& config) {
   spdlog::info("limits of instances: {}", printable(node.limits));
   spdlog::info("data directory {}, bearer token {}", config.data_dir.string(),
                node.token_file);
-  if (config.identity_file.empty())
-    introduce_site_token(node.site_token_file);
+  if (has_identity_file(config))
+    spdlog::info("identity {}", printable(identity_file_of(config).string()));
   else
-    spdlog::info("identity {}", printable(config.identity_file.string()));
+    introduce_site_token(node.site_token_file);
   if (const auto warning = root_warning(::geteuid(), is_kept_root());
       !warning.empty())
     spdlog::warn("{}", warning);
@@ -143,10 +144,10 @@ exit_code node_process::run() {
     malloc_trim(0);
     starter_.ready();
     const auto end = serve(*node, *at);
-    if (end != node_end::renewal)
+    if (end != node_end::renewal && end != node_end::identity)
       return finish(system, *node, end);
     halt(system, *node, signals_, exit_refused);
-    former = at->address;
+    former = end == node_end::renewal ? at->address : std::string{};
   }
 }
 
@@ -193,6 +194,7 @@ std::optional<running_node> node_process::start(caf::actor_system& system,
   config.address = at.address;
   node_additions additions;
   additions.check_host = [config] { return check_own_host(config); };
+  additions.start_anew = [this] { signals_.renew(); };
   config.pages = dashboard_pages();
   auto node = spawn_node(system, config, additions);
   if (node) {
@@ -229,6 +231,11 @@ node_process::node_end node_process::serve(const running_node& node,
     case stop_signals::cause::hangup:
       settings_.read_again(node);
       break;
+    case stop_signals::cause::renewal:
+      spdlog::warn("node '{}' is made anew: it has an identity of another site "
+                   "than before",
+                   node.name);
+      return node_end::identity;
     case stop_signals::cause::timeout:
       break;
     }

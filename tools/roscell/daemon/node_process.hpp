@@ -33,7 +33,7 @@ public:
 
 private:
   /// Why a node has come to an end.
-  enum class node_end { signal, failure, renewal, address_gone };
+  enum class node_end { signal, failure, renewal, identity, address_gone };
 
   std::variant<interface_address, std::string> look() const;
   std::optional<interface_address> await_address();

@@ -66,6 +66,8 @@ void set_up(CLI::App& app, action& chosen) {
   add_exec_command(app, chosen);
   add_secret_command(app, chosen);
   add_site_command(app, chosen);
+  add_login_command(app, chosen);
+  add_audit_command(app, chosen);
   add_shell_command(app, chosen);
   add_completion_command(app, chosen);
   add_help_commands(app, chosen);

@@ -1,3 +1,4 @@
+#include "messages/cell.hpp"
 #include "messages/secret.hpp"
 #include "schemas/utf8.hpp"
 #include "tools/roscell/client/node_client.hpp"
@@ -12,6 +13,7 @@
 
 #include <chrono>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace roscell::cli {
@@ -26,6 +28,8 @@ struct secret_options {
   std::string output = "table";
   std::vector<std::string> names;
   value_origin origin;
+  std::string node;  ///< Of the cell; empty: the one that is asked.
+  bool cell = false; ///< All of its nodes.
 };
 
 using secret_options_ptr = std::shared_ptr<secret_options>;
@@ -46,12 +50,39 @@ void expect_this_host(const node_client& client) {
                           + " roscell secret set NAME < FILE"};
 }
 
+/// Who is away has to be given it later: that is said, and is no success.
+int set_in_cell(const node_client& node, secret_setting request) {
+  const auto cell = node.get("/v1/cell").get<cell_description>();
+  std::string missed;
+  size_t given = 0;
+  for (const auto& row : cell.nodes)
+    try {
+      request.node = row.identity.name;
+      node.ask(message_json(request), answer_limit);
+      ++given;
+    } catch (const refused& why) {
+      missed += (missed.empty() ? "'" : "; '") + row.identity.name
+                + "': " + failure_from(why.reply).message;
+    }
+  print_note("secret '" + printable(request.name) + "' is set on "
+             + std::to_string(given) + " of "
+             + std::to_string(cell.nodes.size()) + " nodes of cell '"
+             + printable(cell.cell) + "'");
+  if (missed.empty())
+    return exit_done;
+  throw command_error{exit_refused, "not set on " + printable(missed),
+                      "set it again once they are there: who has it keeps it"};
+}
+
 int set_secret(const secret_options& options) {
   const node_client node{options.connection};
   expect_this_host(node);
   const auto& name = options.names.front();
-  const secret_setting request{
-      name, to_base64(read_secret_value(name, options.origin))};
+  secret_setting request{
+      name, to_base64(read_secret_value(name, options.origin)), {}};
+  if (options.cell)
+    return set_in_cell(node, request);
+  request.node = options.node;
   const auto reply =
       node.ask(message_json(request), answer_limit).get<secret_set>();
   print_note("secret '" + printable(name) + "' is "
@@ -111,6 +142,7 @@ void add_secret_setting(CLI::App& secrets, action& chosen) {
       "value with their next start.\n\n"
       "Examples:\n  roscell secret set broker-key\n"
       "  roscell secret set broker-key --file key.pem\n"
+      "  roscell secret set broker-key --cell --file key.pem\n"
       "  pass show broker | roscell secret set broker-key");
   command->add_option("SECRET", options->names, "Its name, as steps say it")
       ->required()
@@ -120,6 +152,12 @@ void add_secret_setting(CLI::App& secrets, action& chosen) {
       ->add_option("--file", options->origin.file,
                    "Take these bytes, as they are")
       ->option_text("PATH");
+  command
+      ->add_option("--node", options->node,
+                   "Of the cell whose coordinator is asked, in place of that")
+      ->option_text("NODE");
+  command->add_flag("--cell", options->cell,
+                    "All nodes of the cell whose coordinator is asked");
   command->add_flag("--keep-newline", options->origin.keep_newline,
                     "The line end at the end of standard input is part of it");
   add_connection_options(*command, options->connection);

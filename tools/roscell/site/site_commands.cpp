@@ -1,9 +1,9 @@
-#include "actors/edge/disk/small_file.hpp"
-#include "actors/edge/trust/site_folder.hpp"
+#include "actors/edge/trust/identity_place.hpp"
+#include "actors/edge/trust/limits.hpp"
 #include "tools/roscell/client/target.hpp"
-#include "tools/roscell/commands.hpp"
 #include "tools/roscell/common_options.hpp"
 #include "tools/roscell/exit_code.hpp"
+#include "tools/roscell/site/site_options.hpp"
 #include "tools/roscell/view/format.hpp"
 #include "tools/roscell/view/terminal.hpp"
 #include "tools/roscell/view/views.hpp"
@@ -14,25 +14,14 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <set>
+#include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace roscell::cli {
 
-namespace {
-
 namespace fs = std::filesystem;
-
-struct site_options {
-  fs::path folder;
-  std::string name;
-  std::string role;
-  std::string uuid;
-  fs::path out;
-  std::string output = "table";
-};
-
-using site_options_ptr = std::shared_ptr<site_options>;
 
 int64_t unix_now_s() {
   return std::chrono::duration_cast<std::chrono::seconds>(
@@ -44,15 +33,47 @@ fs::path folder_of(const site_options& options) {
   return options.folder.empty() ? default_data_dir() / "site" : options.folder;
 }
 
-template <class T>
-T unless_failed(edge_result<T> result) {
-  if (const auto* why = std::get_if<edge_error>(&result))
-    throw command_error{exit_usage, why->message, why->hint};
-  return std::get<T>(std::move(result));
+void give_up_site(const edge_error& why) {
+  throw command_error{exit_usage, why.message, why.hint};
 }
 
 site_folder open_site(const site_options& options) {
   return unless_failed(site_folder::open(folder_of(options)));
+}
+
+std::string names_a_role(const std::string& text) {
+  const auto role = role_from(text);
+  return role && *role != site_role::issuer
+             ? std::string{}
+             : "give node, coordinator, operator or viewer";
+}
+
+CLI::App* add_command(CLI::App& site, const site_options_ptr& options,
+                      const char* name, const char* what) {
+  auto* command = site.add_subcommand(name, what);
+  command
+      ->add_option("--dir", options->folder,
+                   "Where the site is kept, with its key")
+      ->option_text("DIR [DATA_DIR/site]");
+  return command;
+}
+
+void run_by(CLI::App& command, action& chosen, const site_options_ptr& options,
+            int (*run)(const site_options&)) {
+  command.callback([&chosen, options, run] {
+    chosen = [options, run] { return run(*options); };
+  });
+}
+
+namespace {
+
+std::string names_a_span(const std::string& text) {
+  try {
+    parse_span(text);
+    return {};
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  }
 }
 
 int create_site(const site_options& options) {
@@ -86,11 +107,18 @@ int issue_identity(const site_options& options) {
     throw command_error{exit_usage,
                         "'" + printable(file.string()) + "' is there already",
                         "--out names another file"};
-  const auto made =
-      unless_failed(site.issue(who, unix_now_s(), good_for_of(*role)));
+  const auto good_for = options.good_for.empty()
+                            ? good_for_of(*role)
+                            : parse_span(options.good_for).count();
+  const auto made = unless_failed(site.issue(who, unix_now_s(), good_for));
+  std::string issuing;
+  if (*role == site_role::coordinator)
+    issuing = text_of(unless_failed(
+        site.issue({who.site, site_role::issuer, who.name, who.uuid},
+                   unix_now_s(), good_for_of(site_role::issuer))));
   // Its owner alone can read it.
-  if (const auto why = write_lasting(file, text_of(made)); !why.empty())
-    throw command_error{exit_refused, why,
+  if (const auto why = keep_identity(file, made, issuing, site.signed_list()))
+    throw command_error{exit_refused, why->message,
                         "it was made, and is in no file: revoke it"};
   print_note("'" + printable(file.string()) + "' is the identity of "
              + printable(text_of(who))
@@ -98,8 +126,16 @@ int issue_identity(const site_options& options) {
   return exit_done;
 }
 
+bool is_revoked(const site_folder& site, const issued_certificate& x) {
+  const auto& owners = site.revoked().owners();
+  const auto owner = owners.find(x.who.uuid);
+  return site.revoked().contains(x.serial)
+         || (owner != owners.end()
+             && x.begins_unix_s + limits::trust::early_s <= owner->second);
+}
+
 std::string state_of(const site_folder& site, const issued_certificate& x) {
-  if (site.revoked().contains(x.serial))
+  if (is_revoked(site, x))
     return "revoked";
   return x.ends_unix_s < unix_now_s() ? "ended" : "good";
 }
@@ -134,61 +170,57 @@ int list_site(const site_options& options) {
   return exit_done;
 }
 
-/// All that is meant: a serial names one, a name whatever has it.
-std::vector<issued_certificate> find_issued(const site_folder& site,
-                                            const std::string& word) {
-  std::vector<issued_certificate> result;
+const issued_certificate* find_serial(const site_folder& site,
+                                      const std::string& serial) {
   for (const auto& x : site.issued())
-    if ((x.serial == word || x.who.name == word || x.who.uuid == word)
-        && !site.revoked().contains(x.serial))
-      result.push_back(x);
+    if (x.serial == serial)
+      return &x;
+  return nullptr;
+}
+
+/// Of all that are called so: here, and in the cell, whose coordinators make
+/// identities, too.
+std::set<std::string> find_owners(const site_options& options,
+                                  const site_folder& site) {
+  std::set<std::string> result;
+  for (const auto& x : site.issued())
+    if ((x.who.name == options.name || x.who.uuid == options.name)
+        && !is_revoked(site, x))
+      result.insert(x.who.uuid);
+  for (const auto& uuid : uuids_in_cell(options, options.name))
+    result.insert(uuid);
   return result;
 }
 
 int revoke_identity(const site_options& options) {
   auto site = open_site(options);
-  const auto meant = find_issued(site, options.name);
-  if (meant.empty())
+  const auto refuse = [](std::optional<edge_error> why) {
+    if (why)
+      throw command_error{exit_refused, why->message, why->hint};
+  };
+  const auto* one = find_serial(site, options.name);
+  if (one != nullptr) {
+    refuse(site.revoke(issued_certificate{*one}, unix_now_s()));
+    print_note("the certificate " + one->serial + " of "
+               + printable(text_of(one->who)) + " counts no more");
+    pass_list_on(options, site);
+    return exit_done;
+  }
+  const auto owners = find_owners(options, site);
+  if (owners.empty())
     throw command_error{exit_usage,
                         "no identity of '" + printable(options.name)
                             + "' counts at site '"
                             + printable(site.site().site()) + "'",
-                        "`roscell site list` shows all"};
-  for (const auto& x : meant) {
-    if (const auto why = site.revoke(x, unix_now_s()))
-      throw command_error{exit_refused, why->message, why->hint};
-    print_note("the certificate " + x.serial + " of "
-               + printable(text_of(x.who)) + " counts no more");
+                        "`roscell site list` shows what was made here, and "
+                        "--to names the cell that it is in"};
+  for (const auto& uuid : owners) {
+    refuse(site.revoke_owner(uuid, unix_now_s()));
+    print_note("what '" + printable(options.name) + "' with UUID "
+               + printable(uuid) + " had counts no more");
   }
-  print_note("copy '" + printable((folder_of(options) / "revoked").string())
-             + "' beside the identity of each node, as IDENTITY_FILE.revoked: "
-               "it counts there from the next handshake");
+  pass_list_on(options, site);
   return exit_done;
-}
-
-std::string names_a_role(const std::string& text) {
-  const auto role = role_from(text);
-  return role && *role != site_role::issuer
-             ? std::string{}
-             : "give node, coordinator, operator or viewer";
-}
-
-/// A command below `site`, with the option that all of them have.
-CLI::App* add_command(CLI::App& site, const site_options_ptr& options,
-                      const char* name, const char* what) {
-  auto* command = site.add_subcommand(name, what);
-  command
-      ->add_option("--dir", options->folder,
-                   "Where the site is kept, with its key")
-      ->option_text("DIR [DATA_DIR/site]");
-  return command;
-}
-
-void run_by(CLI::App& command, action& chosen, const site_options_ptr& options,
-            int (*run)(const site_options&)) {
-  command.callback([&chosen, options, run] {
-    chosen = [options, run] { return run(*options); };
-  });
 }
 
 void add_making(CLI::App& site, action& chosen) {
@@ -224,6 +256,9 @@ void add_issuing(CLI::App& site, action& chosen) {
       ->option_text("UUID [a new one]");
   issue->add_option("--out", options->out, "Where to write it")
       ->option_text("FILE [NAME.pem]");
+  issue->add_option("--good-for", options->good_for, "How long it counts")
+      ->check(CLI::Validator{names_a_span, "SPAN"})
+      ->option_text("SPAN [180d; of people 366d]");
   run_by(*issue, chosen, options, issue_identity);
 }
 
@@ -244,6 +279,7 @@ void add_revoking(CLI::App& site, action& chosen) {
   revoke->add_option("WHO", options->name, "A name, a UUID or a serial")
       ->required()
       ->option_text(" ");
+  add_connection_options(*revoke, options->connection);
   run_by(*revoke, chosen, options, revoke_identity);
 }
 
@@ -255,6 +291,8 @@ void add_site_command(CLI::App& app, action& chosen) {
   site->require_subcommand(1);
   add_making(*site, chosen);
   add_issuing(*site, chosen);
+  add_inviting(*site, chosen);
+  add_adopting(*site, chosen);
   add_looking(*site, chosen);
   add_revoking(*site, chosen);
 }

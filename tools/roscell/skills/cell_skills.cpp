@@ -1,6 +1,8 @@
 #include "tools/roscell/skills/cell_skills.hpp"
 
 #include "actors/builds/limits.hpp"
+#include "actors/edge/disk/small_file.hpp"
+#include "actors/edge/trust/limits.hpp"
 #include "messages/node.hpp"
 #include "messages/skill.hpp"
 #include "tools/roscell/exit_code.hpp"
@@ -89,11 +91,30 @@ upload_progress shown_progress(const std::string& node) {
   };
 }
 
+/// Empty: nobody has signed it.
+std::string signature_beside(const std::string& source) {
+  return read_small_file(signature_file_of(source),
+                         limits::trust::identity_bytes)
+      .value_or("");
+}
+
 std::string name_of(const node_client& node) {
   return node.get("/v1/node").get<node_description>().identity.name;
 }
 
 } // namespace
+
+std::string build_hash_of(const std::string& source) {
+  const scratch_folder scratch;
+  return read_build(skill_folder_of(source, scratch)).name.hash;
+}
+
+std::filesystem::path signature_file_of(const std::string& source) {
+  auto name = source;
+  while (name.size() > 1 && name.back() == '/')
+    name.pop_back();
+  return name + ".signature";
+}
 
 json add_to_cell(const node_client& node, const std::string& source,
                  const std::string& hash, bool as_json) {
@@ -111,7 +132,9 @@ json add_to_cell(const node_client& node, const std::string& source,
   upload_build(node, folder, build, shown_progress(name));
   return unless_refused(
       node.post("/v1/requests",
-                message_json(skill_addition{build.name, name}).dump(),
+                message_json(
+                    skill_addition{build.name, name, signature_beside(source)})
+                    .dump(),
                 limits::build::addition),
       as_json);
 }

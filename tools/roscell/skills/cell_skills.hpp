@@ -9,7 +9,14 @@
 /// Skills on their way into a cell and out of it.
 namespace roscell::cli {
 
-/// Brings the skill of a folder or archive to the node and adds it to the cell.
+/// What the skill of a folder or archive is known by. Throws command_error.
+std::string build_hash_of(const std::string& source);
+
+/// Where its signature is, if it has one: beside it.
+std::filesystem::path signature_file_of(const std::string& source);
+
+/// Brings the skill of a folder or archive to the node and adds it to the cell,
+/// with its signature if there is one.
 /// Gives the `skill_added`.
 /// @param hash that it must have; empty: any.
 /// @param as_json how a refusal is shown. Throws `refused` or command_error.

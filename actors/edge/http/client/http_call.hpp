@@ -28,6 +28,7 @@ struct http_endpoint {
   /// By TCP what is said is TLS, and who asks proves to be this; null: plain.
   std::shared_ptr<site_identity> identity{};
   std::string uuid{}; ///< Of the node that must answer then; empty: any.
+  const char* protocol = nullptr; ///< Spoken then inside; null: HTTP/1.1.
 
   /// As people call it: "ADDR:PORT", or the socket's path.
   std::string name() const;

@@ -138,13 +138,20 @@ void http_exchange::on_connected(error ec) {
     send_at_once(socket_.bare());
     keep_alive(socket_.bare());
     if (what_.to.identity)
-      return socket_.secure(what_.to.identity, tls_engine::role::connects,
-                            [self = shared_from_this()](const auto& why) {
-                              if (!self->over_)
-                                self->on_secured(why);
-                            });
+      return secure();
   }
   ask();
+}
+
+void http_exchange::secure() {
+  const auto* protocol = what_.to.protocol;
+  socket_.secure(
+      what_.to.identity, tls_engine::role::connects,
+      [self = shared_from_this()](const auto& why) {
+        if (!self->over_)
+          self->on_secured(why);
+      },
+      protocol == nullptr ? http_protocol : protocol);
 }
 
 void http_exchange::on_secured(const std::optional<distrusted>& why) {

@@ -50,6 +50,7 @@ private:
   void limit_time();
   void connect();
   void on_connected(error ec);
+  void secure();
   void on_secured(const std::optional<distrusted>& why);
   void ask();
   bool open_file();

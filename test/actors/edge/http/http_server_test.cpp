@@ -100,6 +100,13 @@ TEST_CASE("a server without a token lets nobody in by TCP") {
 
 namespace {
 
+/// "name=value", as a server has set it.
+std::string cookie_in(const std::string& reply) {
+  const std::string name = "\r\nSet-Cookie: ";
+  const auto begin = reply.find(name) + name.size();
+  return reply.substr(begin, reply.find(';', begin) - begin);
+}
+
 /// A server for a browser: nobody has a token, but some know a path.
 struct browsed_server {
   io_thread io;
@@ -128,6 +135,11 @@ struct browsed_server {
                 + "Connection: close\r\n\r\n");
     return client.read_to_end();
   }
+
+  /// The line of a header, for whoever has followed the link.
+  std::string cookie() const {
+    return "Cookie: " + cookie_in(get("/s3cret/page", "127.0.0.1")) + "\r\n";
+  }
 };
 
 bool has_status(const std::string& reply, const std::string& status) {
@@ -136,28 +148,47 @@ bool has_status(const std::string& reply, const std::string& status) {
 
 } // namespace
 
-TEST_CASE("who knows the secret path needs no token") {
+TEST_CASE("a link is good once, for a cookie that counts from then on") {
   const browsed_server x;
-  const auto reply = x.get("/s3cret/page", "127.0.0.1:80");
-  CHECK(has_status(reply, "200"));
-  CHECK(body_of(reply) == "/page");
   for (const auto* path : {"/page", "/", "/s3cret", "/s3crets/page",
                            "/s3cre/page", "//s3cret/page", "/wrong1/page"})
     CHECK(has_status(x.get(path, "127.0.0.1"), "401"));
+  const auto reply = x.get("/s3cret/page", "127.0.0.1:80");
+  CHECK(has_status(reply, "303"));
+  CHECK(reply.find("\r\nLocation: /page\r\n") != std::string::npos);
+  CHECK(reply.find("; Path=/; HttpOnly; SameSite=Strict\r\n")
+        != std::string::npos);
+  const auto cookie = "Cookie: other=1; " + cookie_in(reply) + "\r\n";
+  const auto page = x.ask("GET /page", "127.0.0.1:80", cookie);
+  CHECK(has_status(page, "200"));
+  CHECK(body_of(page) == "/page");
+  // Nobody else comes in by the link, and he who has the cookie still does.
+  CHECK(has_status(x.get("/s3cret/page", "127.0.0.1"), "401"));
+  CHECK(has_status(x.ask("GET /s3cret/page", "127.0.0.1", cookie), "303"));
+  CHECK(has_status(x.ask("GET /page", "127.0.0.1", "Cookie: roscell=\r\n"),
+                   "401"));
+}
+
+TEST_CASE("a link leads nowhere else") {
+  const browsed_server x;
+  const auto reply = x.get("/s3cret//evil.example/page", "127.0.0.1:80");
+  CHECK(has_status(reply, "303"));
+  CHECK(reply.find("\r\nLocation: /\r\n") != std::string::npos);
 }
 
 TEST_CASE("a name that leads here by chance is refused") {
   const browsed_server x;
-  CHECK(has_status(x.get("/s3cret/page", "localhost"), "200"));
   for (const auto* host : {"evil.example", "127.0.0.1.evil.example", ""})
     CHECK(has_status(x.get("/s3cret/page", host), "403"));
+  CHECK(has_status(x.get("/s3cret/page", "localhost"), "303"));
 }
 
-TEST_CASE("a page from elsewhere has nothing done by the secret path") {
+TEST_CASE("a page from elsewhere has nothing done by the cookie") {
   const browsed_server x;
+  const auto cookie = x.cookie();
   const auto status_of = [&](const std::string& method,
                              const std::string& more) {
-    return x.ask(method + " /s3cret/v1/requests", "127.0.0.1:80", more)
+    return x.ask(method + " /v1/requests", "127.0.0.1:80", cookie + more)
         .substr(9, 3);
   };
   for (const auto* more :
@@ -173,17 +204,17 @@ TEST_CASE("a page from elsewhere has nothing done by the secret path") {
   CHECK(status_of("GET", "Origin: http://evil.example\r\n") == "403");
 }
 
-TEST_CASE("a link or a file may lead a browser to the secret path") {
+TEST_CASE("a link or a file may lead a browser to the link") {
   const browsed_server x;
   CHECK(has_status(x.ask("GET /s3cret/page", "127.0.0.1",
                          "Sec-Fetch-Site: cross-site\r\n"
                          "Sec-Fetch-Mode: navigate\r\n"),
-                   "200"));
+                   "303"));
 }
 
 TEST_CASE("a page may load nothing from elsewhere, nor be shown there") {
   const browsed_server x;
-  const auto reply = x.get("/s3cret/page", "127.0.0.1");
+  const auto reply = x.ask("GET /page", "127.0.0.1", x.cookie());
   CHECK(reply.find("Content-Security-Policy: default-src 'none'; ")
         != std::string::npos);
   CHECK(reply.find("frame-ancestors 'none'") != std::string::npos);

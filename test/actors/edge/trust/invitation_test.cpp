@@ -26,7 +26,7 @@ std::string problem_of(const std::string& line) {
 
 open_invitation open(const std::string& id, time_point until,
                      const std::string& name = {}) {
-  return {id, secret, name, 0, until};
+  return {id, secret, name, "node", {}, 0, until};
 }
 
 } // namespace
@@ -85,7 +85,7 @@ TEST_CASE("an invitation is good once, for its name, and until its end") {
   CHECK(table.add(open("2", end, "arm"), start));
   CHECK(std::get<invitation_problem>(table.use("3", "arm", start))
         == invitation_problem::unknown);
-  CHECK(std::get<open_invitation>(table.use("1", "arm", start)).secret
+  CHECK(std::get<open_invitation>(table.use("1", "arm", start)).proving
         == secret);
   CHECK(std::get<invitation_problem>(table.use("1", "arm", start))
         == invitation_problem::unknown);

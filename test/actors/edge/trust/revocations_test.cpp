@@ -28,6 +28,23 @@ TEST_CASE("a revoked certificate counts no more, for renewal either") {
   CHECK(site.distrust_of(by_issuer) == "revoked");
 }
 
+TEST_CASE("of a revoked owner nothing counts that was made before") {
+  made_site site;
+  const auto before = site.issue(site_role::node, "arm").mine;
+  const auto after =
+      site.issue(site_role::node, "arm", site_made_unix_s + 20).mine;
+  revocation_list list{"hall"};
+  CHECK(list.add_owner(before.who()->uuid, site_made_unix_s + 10));
+  CHECK(list.revokes(before));
+  CHECK_FALSE(list.revokes(after));
+  CHECK_FALSE(list.contains(before.serial()));
+  const auto read =
+      revocation_list::read(list.signed_text(site.key), site.mine);
+  REQUIRE(read);
+  CHECK(read->owners() == list.owners());
+  CHECK(read->number() == 1);
+}
+
 TEST_CASE("a list of the revoked comes back as its site has signed it") {
   const made_site site;
   revocation_list list{"hall"};

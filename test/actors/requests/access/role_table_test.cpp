@@ -94,6 +94,25 @@ TEST_CASE("a permit opens its path to whom it was given", "[requests]") {
   CHECK_FALSE(is_refused(request));
 }
 
+TEST_CASE("who comes for an identity may ask for that, and nobody else may",
+          "[requests]") {
+  for (const auto* path : {"/v1/site/entry", "/v1/site/renewal"}) {
+    CHECK_FALSE(is_refused(request_of(newcomer_role, "POST", path)));
+    CHECK(is_refused(request_of(newcomer_role, "GET", path)));
+    for (const auto* role :
+         {"node", "coordinator", "operator", "viewer", "issuer", "king"})
+      CHECK(is_refused(request_of(role, "POST", path)));
+  }
+  for (const auto& path : shown) {
+    CHECK(is_refused(request_of(newcomer_role, "GET", path)));
+    CHECK(is_refused(request_of(newcomer_role, "POST", path)));
+  }
+  for (const auto* path : {"/v1/requests", "/v1/registration", "/healthz"}) {
+    CHECK(is_refused(request_of(newcomer_role, "POST", path)));
+    CHECK(is_refused(request_of(newcomer_role, "GET", path)));
+  }
+}
+
 TEST_CASE("who comes by the Unix socket may all", "[requests]") {
   CHECK_FALSE(is_refused(request_of("", "POST", "/v1/registration")));
   CHECK_FALSE(refuse_by_type("", R"({"type":"task_request"})"));

@@ -5,6 +5,7 @@
 #include "actors/edge/session/site_token.hpp"
 #include "actors/edge/trust/identity_file.hpp"
 #include "actors/edge/trust/limits.hpp"
+#include "actors/node/node_identity.hpp"
 #include "tools/roscell/client/target.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/split_words.hpp"
@@ -75,8 +76,8 @@ finding judge_identity(const std::filesystem::path& file, int64_t now_unix_s) {
 } // namespace
 
 findings check_site_token(const checked_host& host) {
-  if (!host.config.identity_file.empty())
-    return {judge_identity(host.config.identity_file,
+  if (has_identity_file(host.config))
+    return {judge_identity(identity_file_of(host.config),
                            static_cast<int64_t>(std::time(nullptr)))};
   const auto place = place_for(host.config);
   std::error_code problem;

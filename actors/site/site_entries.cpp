@@ -1,0 +1,180 @@
+#include "actors/core/clocks.hpp"
+#include "actors/core/edge_failure.hpp"
+#include "actors/edge/disk/small_file.hpp"
+#include "actors/edge/io/crypto.hpp"
+#include "actors/edge/trust/identity_place.hpp"
+#include "actors/edge/trust/invitation.hpp"
+#include "actors/edge/trust/limits.hpp"
+#include "actors/site/site_keeper.hpp"
+#include "messages/event_kinds.hpp"
+#include "messages/failure.hpp"
+
+#include <algorithm>
+#include <utility>
+
+/// How a coordinator makes others somebody.
+namespace roscell {
+
+namespace {
+
+using clock = std::chrono::steady_clock;
+
+caf::error no_such_invitation() {
+  return fail(error_code::unauthorized,
+              "there is no such invitation, or it was used, or it is over", "",
+              "`roscell site invite` makes another one");
+}
+
+caf::error cannot_issue(site_keeper_pointer self) {
+  const auto& st = self->state;
+  return fail(error_code::conflict,
+              st.config.identity
+                  ? "node '" + st.config.node
+                        + "' makes no identities: it is no coordinator that "
+                          "the site has made an issuer"
+                  : "node '" + st.config.node
+                        + "' has no identity, so it lets nobody into a site",
+              "",
+              st.config.identity
+                  ? "ask a coordinator, or the machine that keeps the site"
+                  : "`roscell site adopt` gives a cell identities");
+}
+
+void expect_newcomers(site_keeper_pointer self) {
+  clock::time_point until{};
+  for (const auto& x : self->state.invitations.all(clock::now()))
+    until = std::max(until, x.until);
+  self->state.config.identity->expect_newcomers(until);
+}
+
+/// The newest there is, for those who may have an older one.
+std::string newest_list(site_keeper_pointer self) {
+  return read_small_file(revoked_file_of(self->state.config.file),
+                         limits::trust::revocations_bytes)
+      .value_or("");
+}
+
+/// A certificate of a node, and whose key has signed it.
+std::string issue_chain(site_keeper_pointer self, const identity& who,
+                        EVP_PKEY* key, const char* reason) {
+  const auto& issuer = *self->state.issuer;
+  const auto made =
+      make_certificate(who, key, {issuer.key, issuer.chain.front()},
+                       site_time_s(self), good_for_of(who.role));
+  self->state.config.context.publish_event(events::certificate_issued, who.name,
+                                           {{"serial", made.serial()},
+                                            {"ends_unix_s", made.ends_unix_s()},
+                                            {"reason", reason}});
+  return made.pem() + issuer.chain.front().pem();
+}
+
+site_entered answer_of(site_keeper_pointer self) {
+  site_entered result;
+  result.site = self->state.config.identity->own().site.pem();
+  result.revoked = newest_list(self);
+  return result;
+}
+
+/// What he has asked for can be made.
+std::optional<identity> newcomer_in(site_keeper_pointer self,
+                                    const site_entry& x) {
+  const identity who{self->state.config.identity->who().site, site_role::node,
+                     x.node, x.uuid};
+  const auto read = identity_in(uri_of(who));
+  return read && *read == who ? read : std::nullopt;
+}
+
+} // namespace
+
+caf::result<site_invited> keep_invitation(site_keeper_pointer self,
+                                          const site_invitation& x) {
+  auto& st = self->state;
+  if (!st.config.identity || (x.deposit.empty() && !st.issuer))
+    return cannot_issue(self);
+  if (x.deposit.empty() && x.role != to_word(site_role::node))
+    return fail(error_code::schema_violation,
+                "a coordinator makes identities of nodes only", "/role",
+                "invite on the machine that keeps the site");
+  const auto now = clock::now();
+  open_invitation open;
+  open.id = id_of_invitation(x.secret);
+  open.proving = x.secret;
+  open.name = x.node;
+  open.role = x.role;
+  open.deposit = x.deposit;
+  open.made_unix_ms = unix_now_ms();
+  open.until = now + limits::trust::invitation;
+  // Asked again, it is the same.
+  if (st.invitations.find(open.id, now) == nullptr
+      && !st.invitations.add(std::move(open), now))
+    return fail(error_code::conflict,
+                std::to_string(limits::trust::invitations)
+                    + " invitations are open",
+                "", "they are over after a day");
+  expect_newcomers(self);
+  constexpr int64_t ms = 1000;
+  return site_invited{st.config.identity->who().site,
+                      st.config.identity->site_digest(), st.config.addresses,
+                      unix_now_ms() + limits::trust::invitation.count() * ms};
+}
+
+caf::result<site_entered> let_in(site_keeper_pointer self,
+                                 const site_entry& x) {
+  auto& st = self->state;
+  if (!st.config.identity)
+    return cannot_issue(self);
+  const auto now = clock::now();
+  const auto* open = st.invitations.find(x.invitation, now);
+  const auto exported = from_hex(x.exported);
+  if (open == nullptr || !exported
+      || !proves_invitation(open->proving, *exported, x.proof))
+    return no_such_invitation();
+  // What is wrong from here on costs him the invitation only once it was used.
+  const auto who = newcomer_in(self, x);
+  const auto key = key_in_request(from_hex(x.request).value_or(""));
+  if (open->deposit.empty() && (!who || !key))
+    return fail(error_code::schema_violation,
+                who ? "that is no request for a certificate"
+                    : "an identity cannot be of '" + x.node
+                          + "' with the UUID '" + x.uuid + "'",
+                who ? "/request" : "/node");
+  const auto used = st.invitations.use(x.invitation, x.node, now);
+  if (const auto* why = std::get_if<invitation_problem>(&used))
+    return *why == invitation_problem::unknown
+               ? no_such_invitation()
+               : fail(error_code::unauthorized,
+                      "the invitation is for another node than '" + x.node
+                          + "'",
+                      "/node", "call the node as it says, with --name");
+  expect_newcomers(self);
+  auto result = answer_of(self);
+  result.deposit = std::get<open_invitation>(used).deposit;
+  if (result.deposit.empty())
+    result.chain = issue_chain(self, *who, key.get(), "invitation");
+  return result;
+}
+
+caf::result<site_entered> renew_other(site_keeper_pointer self,
+                                      const site_renewal& x) {
+  auto& st = self->state;
+  if (!st.config.identity)
+    return cannot_issue(self);
+  const auto shown = certificates_in(x.peer, 1);
+  if (!shown || shown->empty() || !shown->front().who())
+    return fail(error_code::unauthorized, "who asks shows no certificate");
+  const auto& who = *shown->front().who();
+  auto result = answer_of(self);
+  if (!x.certificate)
+    return result;
+  if (who.role != site_role::node)
+    return fail(error_code::unauthorized,
+                std::string{"certificates of the role '"} + to_word(who.role)
+                    + "' are renewed by the site alone",
+                "", "`roscell site renew` on the machine that keeps it");
+  if (!st.issuer)
+    return cannot_issue(self);
+  result.chain = issue_chain(self, who, shown->front().key(), "renewal");
+  return result;
+}
+
+} // namespace roscell
