@@ -15,8 +15,6 @@ namespace roscell {
 
 namespace {
 
-using clock = std::chrono::steady_clock;
-
 site_role own_role(site_keeper_pointer self) {
   return self->state.config.coordinator ? site_role::coordinator
                                         : site_role::node;
@@ -77,7 +75,7 @@ void change_over(site_keeper_pointer self) {
   const bool bound =
       !st.config.coordinator && st.coordinator && st.coordinator->present;
   if (!bound)
-    st.timer.set(self, clock::now() + limits::site::answer);
+    st.timer.set(self, self->clock().now() + limits::site::answer);
 }
 
 /// What it has got is of the same site as what it is.

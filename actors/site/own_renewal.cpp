@@ -16,8 +16,6 @@ namespace roscell {
 
 namespace {
 
-using renewal_clock = std::chrono::steady_clock;
-
 /// Past that a certificate is renewed.
 int64_t half_life_s(const certificate& x) {
   return x.begins_unix_s() + (x.ends_unix_s() - x.begins_unix_s()) / 2;
@@ -44,7 +42,7 @@ void ask_for_renewal(site_keeper_pointer self, bool certificate) {
   if (!place || !st.config.io)
     return;
   st.is_renewing = true;
-  st.next_renewal = renewal_clock::now() + limits::site::renewal_pause;
+  st.next_renewal = self->clock().now() + limits::site::renewal_pause;
   site_renewal what;
   what.certificate = certificate;
   http_call call;
@@ -99,7 +97,7 @@ void seek_renewal(site_keeper_pointer self) {
     return;
   const bool wants_list = st.coordinator->revocations > own_list_number(self);
   const bool wants_certificate =
-      is_past_half_life(self) && renewal_clock::now() >= st.next_renewal;
+      is_past_half_life(self) && self->clock().now() >= st.next_renewal;
   if (wants_list || wants_certificate)
     ask_for_renewal(self, wants_certificate);
 }
@@ -114,14 +112,14 @@ void meet_coordinator(site_keeper_pointer self, const note_coordinator& x) {
   st.coordinator->present = x.present;
   if (st.is_changing) {
     if (!x.present)
-      st.timer.set(self, renewal_clock::now());
+      st.timer.set(self, self->clock().now());
     return;
   }
   if (!st.config.identity)
     return;
   if (x.present || has_ended(self))
     seek_renewal(self);
-  st.timer.set_anew(self, renewal_clock::now() + limits::site::renewal_look);
+  st.timer.set_anew(self, self->clock().now() + limits::site::renewal_look);
 }
 
 void take_renewal(site_keeper_pointer self, const renewal_answered& x) {
@@ -157,7 +155,7 @@ void look_at_time(site_keeper_pointer self) {
     return;
   }
   seek_renewal(self);
-  st.timer.set(self, renewal_clock::now() + limits::site::renewal_look);
+  st.timer.set(self, self->clock().now() + limits::site::renewal_look);
 }
 
 } // namespace roscell

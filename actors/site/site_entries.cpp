@@ -17,8 +17,6 @@ namespace roscell {
 
 namespace {
 
-using clock = std::chrono::steady_clock;
-
 caf::error no_such_invitation() {
   return fail(error_code::unauthorized,
               "there is no such invitation, or it was used, or it is over", "",
@@ -40,11 +38,14 @@ caf::error cannot_issue(site_keeper_pointer self) {
                   : "`roscell site adopt` gives a cell identities");
 }
 
+/// The sockets that they come to know no actor's clock.
 void expect_newcomers(site_keeper_pointer self) {
-  clock::time_point until{};
-  for (const auto& x : self->state.invitations.all(clock::now()))
-    until = std::max(until, x.until);
-  self->state.config.identity->expect_newcomers(until);
+  const auto now = self->clock().now();
+  std::chrono::steady_clock::duration left{};
+  for (const auto& x : self->state.invitations.all(now))
+    left = std::max(left, x.until - now);
+  self->state.config.identity->expect_newcomers(std::chrono::steady_clock::now()
+                                                + left);
 }
 
 /// The newest there is, for those who may have an older one.
@@ -95,7 +96,7 @@ caf::result<site_invited> keep_invitation(site_keeper_pointer self,
     return fail(error_code::schema_violation,
                 "a coordinator makes identities of nodes only", "/role",
                 "invite on the machine that keeps the site");
-  const auto now = clock::now();
+  const auto now = self->clock().now();
   open_invitation open;
   open.id = id_of_invitation(x.secret);
   open.proving = x.secret;
@@ -123,7 +124,7 @@ caf::result<site_entered> let_in(site_keeper_pointer self,
   auto& st = self->state;
   if (!st.config.identity)
     return cannot_issue(self);
-  const auto now = clock::now();
+  const auto now = self->clock().now();
   const auto* open = st.invitations.find(x.invitation, now);
   const auto exported = from_hex(x.exported);
   if (open == nullptr || !exported

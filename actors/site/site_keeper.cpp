@@ -26,7 +26,7 @@ site_status describe_site(site_keeper_pointer self) {
   if (const auto revoked = st.config.identity->trust().site.revoked)
     result.revocations = revoked->number();
   result.issues = st.issuer.has_value();
-  for (const auto& x : st.invitations.all(std::chrono::steady_clock::now()))
+  for (const auto& x : st.invitations.all(self->clock().now()))
     result.invitations.push_back({x.id, x.name, x.role, x.made_unix_ms});
   return result;
 }
@@ -66,8 +66,7 @@ site_keeper_actor::behavior_type site_keeper(site_keeper_pointer self,
             {{"identity", st.config.identity != nullptr},
              {"issues", st.issuer.has_value()},
              {"changing", st.is_changing},
-             {"invitations",
-              st.invitations.all(std::chrono::steady_clock::now()).size()}});
+             {"invitations", st.invitations.all(self->clock().now()).size()}});
       },
       [self](const site_query&) { return describe_site(self); },
       [self](const site_invitation& x) { return keep_invitation(self, x); },

@@ -17,7 +17,7 @@ using row = std::pair<Rule, std::string_view>;
 constexpr row<std::string_view> value_rules[] = {
     {"address", " address discovery_server remote "},
     {"architecture", " architecture "},
-    {"counter", " count epoch id incarnation size "},
+    {"counter", " count epoch id incarnation revocations size "},
     {"domain_id", " domain_id "},
     {"hash", " hash "},
     {"hex_digits", " build_key nonce proof "},

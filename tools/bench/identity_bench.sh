@@ -19,6 +19,7 @@ use_skills
 make_site hall
 make_site_token
 issue coordinator head
+issue coordinator crowd
 issue node arm
 issue operator anna
 bridge_hosts 4
@@ -86,6 +87,16 @@ for ((i = 1; i <= rounds; i++)); do
   done
 done
 
+# As many as a cell has members, at a coordinator of one host: what else a member says
+# when it comes back is not among it.
+members=250
+most_storm_ms=15000
+start_node crowd --coordinator --cell crowd --interface lo \
+  --identity "$scratch/crowd.pem"
+read -r storm_ms unanswered < <(python3 tools/bench/identities_at_once.py \
+  "$(tcp_of crowd | cut -d: -f2)" "$members" "$scratch/anna.pem")
+stop_node crowd
+
 # wire_bytes HOST: what its cable has carried.
 wire_bytes() {
   ip netns exec "${hosts[$(($1 - 1))]}" cat /proc/net/dev \
@@ -112,6 +123,9 @@ compare() {
 compare "join of a node, from its start" join ms "$most_join_ms"
 compare "request by TCP, with its program" ask ms "$most_task_ms"
 compare "task, from request to running" task ms "$most_task_ms"
+figure "$members who prove themselves at once, until all are answered" "$storm_ms" ms
+((storm_ms <= most_storm_ms && unanswered == 0)) \
+  || { echo "identity_bench: $unanswered of $members unanswered" >&2; broken=1; }
 figure "wire of an idle member, by token" "$wire_guest" B/s
 figure "wire of an idle member, by identity" "$wire_arm" B/s
 ((wire_arm - wire_guest <= most_wire_bytes_s)) \

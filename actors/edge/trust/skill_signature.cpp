@@ -35,7 +35,7 @@ std::variant<identity, distrusted> check_signature(const site_trust& trust,
                                                    int64_t now_unix_s) {
   const auto at = signature.rfind(signed_word);
   if (signature.size() > limits::trust::identity_bytes
-      || at == std::string_view::npos)
+      || at == std::string_view::npos || signature.back() != '\n')
     return no_signature("that is no signature of a build");
   const auto chain =
       certificates_in(signature.substr(0, at), limits::trust::chain);

@@ -142,6 +142,16 @@ TEST_CASE("an invitation that is not proved stays, and lets nobody in") {
   CHECK(bench.enter("arm"));
 }
 
+TEST_CASE("an invitation is over after a day") {
+  keeper_of_site bench;
+  REQUIRE(bench.invite());
+  bench.advance(limits::trust::invitation - std::chrono::seconds{1});
+  CHECK(bench.say<site_status>(site_query{})->invitations.size() == 1);
+  bench.advance(std::chrono::seconds{1});
+  CHECK(bench.say<site_status>(site_query{})->invitations.empty());
+  CHECK(code_of(bench.enter()) == error_code::unauthorized);
+}
+
 TEST_CASE("what was made elsewhere is kept for whom it is for") {
   keeper_of_site bench;
   REQUIRE(bench.invite("", "operator", "c0ffee"));

@@ -97,7 +97,7 @@ std::string offered_by_bash(const std::string& words,
 } // namespace
 
 TEST_CASE("completion offers every command, and says what it does", "[tools]") {
-  CHECK(words_for("roscell ").find("apply bw cell cells check") == 0);
+  CHECK(words_for("roscell ").find("apply audit bw cell cells check") == 0);
   CHECK(words_for("roscell no") == "node nodes");
   CHECK(words_for("roscell new ") == "config task");
   CHECK(words_for("roscell skill n") == "new");

@@ -15,7 +15,6 @@ namespace {
 std::unique_ptr<http_server> serve(io_thread& io, http_handler handler) {
   http_server_options options;
   options.port = 0;
-  options.path_secret = "s";
   options.token = "node-token";
   options.handler = std::move(handler);
   return std::get<std::unique_ptr<http_server>>(
@@ -51,13 +50,12 @@ struct bench {
   }
 
   http_client browser() const {
-    return http_client{{"", "127.0.0.1", front->port(), ""}};
+    return http_client{{"", "127.0.0.1", front->port(), "node-token"}};
   }
 
   http_reply ask(const std::string& path, const std::string& method = "GET",
                  const std::string& body = {}) const {
-    return std::get<http_reply>(
-        browser().request(method, "/s" + path, body, {}));
+    return std::get<http_reply>(browser().request(method, path, body, {}));
   }
 };
 
@@ -101,7 +99,7 @@ TEST_CASE("a stream is passed on as it comes, and ends with the browser",
   std::promise<void> ended;
   std::string line;
   const auto reply =
-      x.browser().follow("/s/v1/events",
+      x.browser().follow("/v1/events",
                          [&](std::string_view text) {
                            line = text;
                            x.events->on_closed([&ended] { ended.set_value(); });
@@ -117,7 +115,7 @@ TEST_CASE("a browser sees whether a stream has ended or was broken off",
           "[dashboard]") {
   bench x;
   const auto follow_until = [&](auto end) {
-    return x.browser().follow("/s/v1/events",
+    return x.browser().follow("/v1/events",
                               [&](std::string_view line) {
                                 if (line == "data: 1")
                                   end();
