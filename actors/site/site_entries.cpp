@@ -55,6 +55,20 @@ std::string newest_list(site_keeper_pointer self) {
       .value_or("");
 }
 
+/// Before it is given away: who is away can be revoked by that.
+caf::error note_issued(site_keeper_pointer self, const identity& who) {
+  auto& st = self->state;
+  auto all = st.issued;
+  all[who.uuid] = who.name;
+  if (all == st.issued)
+    return caf::none;
+  if (const auto why = keep_issued(st.config.file, all); !why.empty())
+    return fail(error_code::internal, why, "",
+                "check whether its disk has room");
+  st.issued = std::move(all);
+  return caf::none;
+}
+
 /// A certificate of a node, and whose key has signed it.
 std::string issue_chain(site_keeper_pointer self, const identity& who,
                         EVP_PKEY* key, const char* reason) {
@@ -74,6 +88,10 @@ site_entered answer_of(site_keeper_pointer self) {
   result.site = self->state.config.identity->own().site.pem();
   result.revoked = newest_list(self);
   return result;
+}
+
+bool is_for(const open_invitation& x, const std::string& node) {
+  return x.name.empty() || x.name == node;
 }
 
 /// What he has asked for can be made.
@@ -139,6 +157,9 @@ caf::result<site_entered> let_in(site_keeper_pointer self,
                     : "an identity cannot be of '" + x.node
                           + "' with the UUID '" + x.uuid + "'",
                 who ? "/request" : "/node");
+  if (open->deposit.empty() && is_for(*open, x.node))
+    if (auto why = note_issued(self, *who))
+      return why;
   const auto used = st.invitations.use(x.invitation, x.node, now);
   if (const auto* why = std::get_if<invitation_problem>(&used))
     return *why == invitation_problem::unknown
@@ -174,6 +195,8 @@ caf::result<site_entered> renew_other(site_keeper_pointer self,
                 "", "`roscell site renew` on the machine that keeps it");
   if (!st.issuer)
     return cannot_issue(self);
+  if (auto why = note_issued(self, who))
+    return why;
   result.chain = issue_chain(self, who, shown->front().key(), "renewal");
   return result;
 }

@@ -58,6 +58,7 @@ int64_t site_time_s(site_keeper_pointer self) {
 site_keeper_actor::behavior_type site_keeper(site_keeper_pointer self,
                                              const site_keeper_config& config) {
   self->state.config = config;
+  self->state.issued = read_issued(config.file);
   take_up_issuer(self);
   return {
       [self](const state_query&) {
@@ -65,6 +66,7 @@ site_keeper_actor::behavior_type site_keeper(site_keeper_pointer self,
         return state_of(
             {{"identity", st.config.identity != nullptr},
              {"issues", st.issuer.has_value()},
+             {"issued", st.issued},
              {"changing", st.is_changing},
              {"invitations", st.invitations.all(self->clock().now()).size()}});
       },

@@ -5,6 +5,7 @@
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/edge/trust/invitation_table.hpp"
 #include "actors/edge/trust/site_identity.hpp"
+#include "actors/site/issued_names.hpp"
 #include "messages/messages.hpp"
 
 #include <chrono>
@@ -46,6 +47,7 @@ struct site_keeper_state {
 
   site_keeper_config config;
   std::optional<own_identity> issuer; ///< None: it makes no identities.
+  issued_names issued;                ///< Whom it has made identities for.
   invitation_table invitations;
   std::optional<asked_keys> asked;
   /// It has an identity on the disk that counts once it is made anew.

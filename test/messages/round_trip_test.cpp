@@ -56,7 +56,8 @@ bool has_least_form(const std::string& name) {
          && name != "plan_document" && name != "cell_formation"
          && name != "skill_added" && name != "skill_pulled"
          && name != "exec_request" && name != "task_set_request"
-         && name != "parameter_change" && name != "set_parameters";
+         && name != "parameter_change" && name != "set_parameters"
+         && name != "site_invited";
 }
 
 } // namespace

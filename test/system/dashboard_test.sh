@@ -85,8 +85,10 @@ test_a_browser_is_led_to_the_dashboard_by_a_file_that_only_its_user_reads() {
   [[ $page == *"url=$address\""* ]] || fail "it leads elsewhere: $page"
   expect "signals that the browser cannot get" "$blocked" 0000000000000000
   [[ $session -ne $(ps -o sid= "$dashboard") ]] || fail "Ctrl-C ends it, too"
-  curl -sS --max-time "$deadline_s" "$address" | has_line '<html' \
-    || fail "there is no page"
+  curl -sSL --max-time "$deadline_s" -c "$scratch/cookies" -b "$scratch/cookies" \
+    "$address" | has_line '<html' || fail "there is no page"
+  # Whoever finds the link later has nothing of it.
+  expect "the link once more" "$(curl -s -o /dev/null -w '%{http_code}' "$address")" 401
   kill -TERM "$dashboard"
   wait "$dashboard" || fail "it ends with $?"
   expect "what is left" "$(ls "$scratch/home")" ''

@@ -45,6 +45,10 @@ constexpr size_t invitation_bytes = 512;
 /// Longest answer to one who comes with an invitation.
 constexpr size_t admission_bytes = 1024 * kib;
 
+/// Nodes that a coordinator can have made identities for, and their file.
+constexpr size_t issued = 4096;
+constexpr size_t issued_bytes = 1024 * kib;
+
 /// Certificates that a site can have revoked. Those that have ended for good
 /// make room.
 constexpr size_t revoked = 4096;

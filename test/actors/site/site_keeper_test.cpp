@@ -285,6 +285,22 @@ TEST_CASE("a list of the revoked counts at once, and an older one never") {
         == error_code::schema_violation);
 }
 
+TEST_CASE(
+    "whom a coordinator has made identities for is known after a restart") {
+  keeper_of_site bench;
+  REQUIRE(bench.invite());
+  REQUIRE(bench.enter("arm"));
+  const auto belt = bench.site.issue(site_role::node, "belt", "0e");
+  REQUIRE(
+      bench.say<site_entered>(site_renewal{true, belt.chain.front().pem()}));
+  bench.kill(bench.keeper);
+  bench.start();
+  const auto said = bench.say<actor_state>(state_query{});
+  REQUIRE(said);
+  CHECK(json::parse(said->json_text).at("issued")
+        == json{{"0c0d", "arm"}, {"0e", "belt"}});
+}
+
 TEST_CASE("what a node is at its site can be asked") {
   keeper_of_site bench;
   REQUIRE(bench.invite("arm"));

@@ -20,7 +20,7 @@ begin_long() {
   rm -f "$scratch/long.out"
   # No function: a signal to the client is to reach it.
   "$ROSCELL" exec --to "$scratch/$asked/node.sock" -n "$instance" -- sh -c \
-    "setsid sleep $long_s & echo ready; sleep $long_s; true" \
+    "setsid sleep $long_s & echo ready; exec sleep $long_s" \
     > "$scratch/long.out" 2> "$scratch/long.err" < /dev/null &
   client=$!
   echo "$client" >> "$scratch/pids"

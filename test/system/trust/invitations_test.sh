@@ -125,7 +125,7 @@ test_a_cell_takes_another_key_of_its_site_and_the_old_one_counts_no_more() {
 test_the_session_of_who_is_revoked_ends_and_data_of_the_others_flow() {
   start_head
   local name
-  for name in arm belt; do
+  for name in arm belt leg; do
     invite node "$name"
     start_node "$name" --interface lo --join "$(discovery_of head)" --cpu-floor 1 \
       --label "place=$name" --invite "$scratch/$name.invitation"
@@ -144,6 +144,12 @@ test_the_session_of_who_is_revoked_ends_and_data_of_the_others_flow() {
   [[ $ms -le 1000 ]] || fail "its session ended only after $ms ms"
   await head '.event == "session_refused"
     and (.data.message | contains("was revoked"))' > /dev/null
+  # One that is away when that happens.
+  stop_node leg
+  below head site revoke leg --dir "$scratch/head/site" 2> "$scratch/out" \
+    || fail "$(cat "$scratch/out")"
+  start_node leg --interface lo --join "$(discovery_of head)" --cpu-floor 1
+  await leg 'tojson | contains("certificate revoked")' > /dev/null
   # The other member has the list, too.
   await arm '.event == "revocations_taken"' > /dev/null
   lines_come pick two

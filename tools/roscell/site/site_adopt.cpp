@@ -11,6 +11,8 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <map>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -61,6 +63,21 @@ std::vector<identity_requested> ask_all(const site_options& options,
                             + "' answer: " + printable(silent),
                         "wait for them, or leave them out with --without "
                         "NODE, and invite them later"};
+  return result;
+}
+
+/// By UUID: whom a coordinator has made identities for, as its site keeper
+/// shows it.
+std::map<std::string, std::string> issued_in(const json& reply) {
+  std::map<std::string, std::string> result;
+  const auto actors = reply.value("actors", json::array());
+  for (const auto& actor : actors) {
+    const auto state = actor.value("state", json::object());
+    const auto issued = state.value("issued", json::object());
+    for (const auto& [uuid, name] : issued.items())
+      if (name.is_string())
+        result[uuid] = name.get<std::string>();
+  }
   return result;
 }
 
@@ -224,6 +241,11 @@ std::vector<std::string> uuids_in_cell(const site_options& options,
     for (const auto& row : cell_at(node).nodes)
       if (row.identity.name == name)
         result.push_back(row.identity.uuid);
+    // Who is away is in no cell now.
+    const auto keeper = node.get("/v1/actors/site-keeper");
+    for (const auto& [uuid, called] : issued_in(keeper))
+      if (called == name || uuid == name)
+        result.push_back(uuid);
   } catch (const std::runtime_error&) {
     // Said when the list is passed on.
     return result;

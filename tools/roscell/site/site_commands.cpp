@@ -170,6 +170,9 @@ int list_site(const site_options& options) {
   return exit_done;
 }
 
+/// Certificates are made by the clocks of coordinators, which may be ahead.
+constexpr int64_t clock_margin_s = 60;
+
 const issued_certificate* find_serial(const site_folder& site,
                                       const std::string& serial) {
   for (const auto& x : site.issued())
@@ -215,7 +218,7 @@ int revoke_identity(const site_options& options) {
                         "`roscell site list` shows what was made here, and "
                         "--to names the cell that it is in"};
   for (const auto& uuid : owners) {
-    refuse(site.revoke_owner(uuid, unix_now_s()));
+    refuse(site.revoke_owner(uuid, unix_now_s() + clock_margin_s));
     print_note("what '" + printable(options.name) + "' with UUID "
                + printable(uuid) + " had counts no more");
   }
