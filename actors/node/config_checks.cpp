@@ -5,7 +5,7 @@
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/edge/process/privileges.hpp"
 #include "actors/edge/trust/identity_file.hpp"
-#include "actors/node/node_identity.hpp"
+#include "actors/site/node_identity.hpp"
 #include "messages/failure.hpp"
 #include "messages/messages.hpp"
 #include "schemas/message_catalogue.hpp"

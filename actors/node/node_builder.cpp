@@ -20,7 +20,6 @@
 #include "actors/node/config_checks.hpp"
 #include "actors/node/node.hpp"
 #include "actors/node/node_agent.hpp"
-#include "actors/node/node_identity.hpp"
 #include "actors/node/node_runtime.hpp"
 #include "actors/node/reach_prober.hpp"
 #include "actors/node/resource_probe.hpp"
@@ -35,6 +34,7 @@
 #include "actors/session/registration_client.hpp"
 #include "actors/session/session_connector.hpp"
 #include "actors/site/audit_log.hpp"
+#include "actors/site/node_identity.hpp"
 #include "actors/site/site_keeper.hpp"
 #include "messages/failure.hpp"
 

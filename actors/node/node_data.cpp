@@ -3,7 +3,7 @@
 #include "actors/core/edge_failure.hpp"
 #include "actors/edge/disk/data_folder.hpp"
 #include "actors/edge/trust/site_identity.hpp"
-#include "actors/node/node_identity.hpp"
+#include "actors/site/node_identity.hpp"
 #include "messages/failure.hpp"
 #include "schemas/document.hpp"
 

@@ -5,7 +5,7 @@
 #include "actors/edge/io/crypto.hpp"
 #include "actors/edge/session/limits.hpp"
 #include "actors/edge/session/site_token.hpp"
-#include "actors/node/node_identity.hpp"
+#include "actors/site/node_identity.hpp"
 #include "messages/failure.hpp"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "actors/core/watching.hpp"
 #include "actors/edge/session/site_token.hpp"
 #include "actors/node/event_series.hpp"
-#include "actors/node/node_identity.hpp"
+#include "actors/site/node_identity.hpp"
 #include "messages/event_kinds.hpp"
 #include "messages/messages.hpp"
 #include "tools/roscell/client/target.hpp"

@@ -5,7 +5,7 @@
 #include "actors/edge/session/site_token.hpp"
 #include "actors/edge/trust/identity_file.hpp"
 #include "actors/edge/trust/limits.hpp"
-#include "actors/node/node_identity.hpp"
+#include "actors/site/node_identity.hpp"
 #include "tools/roscell/client/target.hpp"
 #include "tools/roscell/doctor/command_text.hpp"
 #include "tools/roscell/split_words.hpp"

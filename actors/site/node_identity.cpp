@@ -1,4 +1,4 @@
-#include "actors/node/node_identity.hpp"
+#include "actors/site/node_identity.hpp"
 
 #include "actors/core/clocks.hpp"
 #include "actors/core/edge_failure.hpp"
