@@ -24,11 +24,12 @@ bool ends_with(std::string_view text, std::string_view end) {
          && text.substr(text.size() - end.size()) == end;
 }
 
-/// Queries that show more than how things are: what programs have written, or
-/// that make a host work.
-constexpr std::array<std::string_view, 6> operators_queries{
-    "log_query",   "kept_logs_query",   "exec_output_query",
-    "reach_query", "examination_query", "registration_query"};
+/// Queries that show more than how things are: what programs have written, who
+/// has done what, or that make a host work.
+constexpr std::array<std::string_view, 8> operators_queries{
+    "log_query",   "kept_logs_query",       "exec_output_query",
+    "reach_query", "examination_query",     "registration_query",
+    "audit_query", "identity_request_query"};
 
 bool is_for_viewers(std::string_view path) {
   return !begins_with(path, builds_path) && path != registration_path

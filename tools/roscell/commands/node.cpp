@@ -85,9 +85,6 @@ void add_network(CLI::App& command, node_options& options) {
   command.add_flag("--ros2-set-parameters", config.ros2_set_parameters,
                    "Let clients of ROS 2, who prove nothing, change parameters "
                    "of running skills");
-  command.add_flag("--require-signed-skills", config.require_signed_skills,
-                   "Place nothing but builds of skills that an operator of the "
-                   "site has signed");
   command.add_flag("--force", config.force,
                    "Take the cell's name although another coordinator has it");
   command
@@ -127,6 +124,10 @@ void add_site(CLI::App& command, node_options& options) {
                   "By what a node gets an identity that has none: the line "
                   "that `roscell site invite` prints, or a file with it")
       ->option_text("LINE|FILE");
+  command.add_flag("--require-signed-skills",
+                   options.config.require_signed_skills,
+                   "Place nothing but builds of skills that an operator of the "
+                   "site has signed");
 }
 
 std::string names_a_cgroup(const std::string& text) {

@@ -60,7 +60,8 @@ TEST_CASE("a viewer changes nothing, whatever the request", "[requests]") {
 }
 
 TEST_CASE("what programs have written is an operator's", "[requests]") {
-  for (const auto* type : {"log_query", "kept_logs_query", "exec_output_query"})
+  for (const auto* type : {"log_query", "kept_logs_query", "exec_output_query",
+                           "audit_query", "identity_request_query"})
     CHECK_FALSE(may_request(site_role::viewer, type));
   CHECK(is_refused(request_of("viewer", "GET", "/v1/instances/a/logs")));
   CHECK_FALSE(
