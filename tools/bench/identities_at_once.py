@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """So many come at once, each from an address of its own in 127/8, prove an identity by
-TLS, and are answered.
+TLS, and are answered. Who finds no place comes again a second later, as nodes do.
 
 Usage: identities_at_once.py PORT COUNT IDENTITY.pem
-Prints the milliseconds until all were answered, and how many were not.
+Prints the milliseconds until all were answered, how many were not, and how often one
+had to come again.
 """
 import socket
 import ssl
@@ -18,24 +19,33 @@ def main():
     context.check_hostname = False
     context.verify_mode = ssl.CERT_NONE
     context.load_cert_chain(sys.argv[3])
-    answered = []
+    answered, again = [], []
+    deadline_s = 30
     guard = threading.Lock()
     ready = threading.Barrier(count + 1)
 
+    def is_answered(number):
+        with socket.socket() as bare:
+            bare.settimeout(deadline_s)
+            bare.bind((f"127.0.{1 + number // 200}.{1 + number % 200}", 0))
+            bare.connect(("127.0.0.1", port))
+            with context.wrap_socket(bare) as secure:
+                secure.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n")
+                return secure.recv(100).startswith(b"HTTP/1.1 200")
+
     def come(number):
         ready.wait()
-        try:
-            with socket.socket() as bare:
-                bare.settimeout(30)
-                bare.bind((f"127.0.{1 + number // 200}.{1 + number % 200}", 0))
-                bare.connect(("127.0.0.1", port))
-                with context.wrap_socket(bare) as secure:
-                    secure.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n")
-                    if secure.recv(100).startswith(b"HTTP/1.1 200"):
-                        with guard:
-                            answered.append(number)
-        except OSError:
-            pass  # Counted by what is missing.
+        until = time.monotonic() + deadline_s
+        while time.monotonic() < until:
+            try:
+                done = is_answered(number)
+            except OSError:
+                done = False
+            with guard:
+                (answered if done else again).append(number)
+            if done:
+                return
+            time.sleep(1)
 
     threads = [threading.Thread(target=come, args=(n,)) for n in range(count)]
     for thread in threads:
@@ -44,7 +54,7 @@ def main():
     begin = time.monotonic()
     for thread in threads:
         thread.join()
-    print(round((time.monotonic() - begin) * 1000), count - len(answered))
+    print(round((time.monotonic() - begin) * 1000), count - len(answered), len(again))
 
 
 main()
