@@ -1,10 +1,5 @@
 #include "actors/node/node_builder.hpp"
 
-#include "actors/builds/build_fetcher.hpp"
-#include "actors/builds/build_keeper.hpp"
-#include "actors/builds/images/image_exchange.hpp"
-#include "actors/builds/images/image_worker.hpp"
-#include "actors/builds/source_questions.hpp"
 #include "actors/cell/cell_coordinator.hpp"
 #include "actors/cell/state/build_offers.hpp"
 #include "actors/edge/host/interfaces.hpp"
@@ -12,7 +7,6 @@
 #include "actors/instances/container_supervisor.hpp"
 #include "actors/instances/life/runtime_switch.hpp"
 #include "actors/instances/ros2/graph_watch.hpp"
-#include "actors/instances/secrets/secret_keeper.hpp"
 #include "actors/instances/skills/skill_watcher.hpp"
 #include "actors/membership/discovery.hpp"
 #include "actors/membership/join_diagnoser.hpp"
@@ -21,21 +15,17 @@
 #include "actors/node/node.hpp"
 #include "actors/node/node_agent.hpp"
 #include "actors/node/node_runtime.hpp"
-#include "actors/node/reach_prober.hpp"
 #include "actors/node/resource_probe.hpp"
 #include "actors/node/state_store.hpp"
 #include "actors/placement/scheduler.hpp"
 #include "actors/placement/searcher.hpp"
-#include "actors/requests/cost/cost_sampler.hpp"
 #include "actors/requests/handler_pipeline.hpp"
 #include "actors/requests/handlers/insight.hpp"
 #include "actors/requests/request_router.hpp"
 #include "actors/requests/rest.hpp"
 #include "actors/session/registration_client.hpp"
 #include "actors/session/session_connector.hpp"
-#include "actors/site/audit_log.hpp"
 #include "actors/site/node_identity.hpp"
-#include "actors/site/site_keeper.hpp"
 #include "messages/failure.hpp"
 
 #include <system_error>
@@ -104,69 +94,6 @@ node_builder::make_runtime() {
     return spawn(system, context, runtime_switch, programs(listener),
                  actors(context, listener), listener);
   };
-}
-
-/// It works once it knows whom to ask: see `start_watching`.
-void node_builder::start_images() {
-  if (runtime_.socket.empty())
-    return;
-  const auto& config = parts_.config;
-  const auto cancel = std::make_shared<http_cancel>();
-  const engine_door door{runtime_.socket, runtime_.api,
-                         runtime_.name == "docker", cancel};
-  const auto work_dir = builds_folder(config) / "images";
-  // What an earlier run has left half done.
-  std::error_code ignored;
-  std::filesystem::remove_all(work_dir, ignored);
-  image_exchange_config with;
-  with.context = parts_.context;
-  with.node = config.name;
-  with.architecture = own_architecture();
-  with.builds = builds_folder(config);
-  with.most_bytes = config.builds_bytes;
-  with.stop_workers = [cancel] { cancel->cancel(); };
-  with.make_worker = [&system = system_, context = parts_.context, door,
-                      work_dir](const image_exchange_actor& owner) {
-    return spawn_blocking(system, context, image_worker,
-                          image_worker_config{door, work_dir}, owner);
-  };
-  images_ = start(image_exchange, with);
-}
-
-/// Before anybody who has an instance started.
-void node_builder::start_secrets() {
-  const auto& config = parts_.config;
-  secret_keeper_config with;
-  with.context = parts_.context;
-  with.node = config.name;
-  with.folder = config.data_dir / "secrets";
-  with.places = memory_places();
-  with.place_name = place_name_of(config.data_dir);
-  with.names = secret_names_;
-  for (const auto& row : data_.instances)
-    if (auto names = secrets_of(row.spec); is_live(row.state) && !names.empty())
-      with.given[row.spec.instance] = std::move(names);
-  parts_.services->secrets = start_blocking(secret_keeper, with);
-}
-
-/// Before anybody who meets coordinators.
-void node_builder::start_site() {
-  const auto& config = parts_.config;
-  auto& services = *parts_.services;
-  site_keeper_config with;
-  with.context = parts_.context;
-  with.io = parts_.edges->io->core();
-  with.node = config.name;
-  with.uuid = parts_.identity.uuid;
-  with.coordinator = config.coordinator;
-  with.identity = data_.site.identity();
-  with.file = identity_file_of(config);
-  with.addresses = {parts_.edges->http_address};
-  with.start_anew = additions_.start_anew;
-  services.has_identity = with.identity != nullptr;
-  services.site = start_blocking(site_keeper, with);
-  services.audit =
-      start_blocking(audit_log, parts_.context, config.data_dir / "audit");
 }
 
 void node_builder::start_supervision() {
@@ -349,54 +276,6 @@ void node_builder::start_watching() {
   else
     broker = services.membership;
   caf::anon_send(images_, serve_images{broker, services.keeper, fetcher_});
-}
-
-void node_builder::start_builds() {
-  const auto& config = parts_.config;
-  build_keeper_config keeping;
-  keeping.context = parts_.context;
-  keeping.folder = builds_folder(config);
-  keeping.most_bytes = config.builds_bytes;
-  keeping.supervisor = parts_.services->supervisor;
-  keeping.architecture = own_architecture();
-  parts_.services->keeper = start_blocking(build_keeper, keeping);
-  build_fetcher_config fetching;
-  fetching.context = parts_.context;
-  fetching.node = config.name;
-  fetching.keeper = parts_.services->keeper;
-  fetching.ask = source_asker(parts_.edges->io->core(), config.address,
-                              data_.site.identity());
-  fetcher_ = start(build_fetcher, fetching);
-}
-
-void node_builder::start_measuring() {
-  auto& costs = parts_.services->costs;
-  costs = std::make_shared<cost_meter>(
-      [table = parts_.context.metrics] { return read_cost(table); });
-  start(cost_sampler, costs);
-}
-
-void node_builder::start_prober() {
-  const auto& config = parts_.config;
-  reach_prober_config with;
-  with.io = parts_.edges->io.get();
-  with.node = config.name;
-  with.address = config.address;
-  with.http_address = parts_.edges->http_address;
-  with.discovery_server = parts_.edges->discovery_server;
-  with.membership = parts_.services->membership;
-  with.domain_id = config.ros_domain_id;
-  with.site = data_.site;
-  parts_.services->prober = start(reach_prober, with);
-}
-
-void node_builder::start_execs() {
-  exec_host_config with;
-  with.context = parts_.context;
-  with.node = parts_.config.name;
-  with.supervisor = parts_.services->supervisor;
-  with.open = make_exec_opener(parts_.config, runtime_, *parts_.edges->io);
-  parts_.services->execs = start_blocking(exec_host, with);
 }
 
 void node_builder::start_requests() {

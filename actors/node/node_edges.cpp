@@ -161,12 +161,14 @@ void admit_sessions(caf::actor_system& system, const actor_context& context,
   acceptor.site = site;
   acceptor.on_session = [&system, context,
                          heartbeats = edges.sockets.heartbeat.get(),
+                         known = edges.known,
                          coordinator](established_session session) {
     node_identity peer;
     peer.name = session.peer.node;
     peer.uuid = session.peer.uuid;
     peer.epoch = session.peer.number;
     peer.address = session.peer.address;
+    known->add(peer.name, peer.uuid);
     const auto role = session.peer.role == to_word(node_role::coordinator)
                           ? node_role::coordinator
                           : node_role::primary;

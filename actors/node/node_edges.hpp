@@ -6,6 +6,7 @@
 #include "actors/edge/http/http_server.hpp"
 #include "actors/edge/io/io_thread.hpp"
 #include "actors/node/node_data.hpp"
+#include "actors/site/known_nodes.hpp"
 #include "messages/messages.hpp"
 
 #include <caf/expected.hpp>
@@ -56,6 +57,8 @@ struct node_edges {
   std::map<std::string, std::string> environment;
   /// What the node's discovery server knows, whichever it is at present.
   std::shared_ptr<ros_graph> graph = std::make_shared<ros_graph>();
+  /// Whom this coordinator knows.
+  std::shared_ptr<known_nodes> known = std::make_shared<known_nodes>();
   /// Whom this node gives builds.
   std::shared_ptr<build_permits> permits = std::make_shared<build_permits>();
 };

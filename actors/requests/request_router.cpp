@@ -5,6 +5,7 @@
 #include "actors/core/watching.hpp"
 #include "actors/edge/http/limits.hpp"
 #include "actors/requests/handler_pipeline.hpp"
+#include "actors/requests/request_outline.hpp"
 #include "actors/requests/secret_requests.hpp"
 #include "messages/event_kinds.hpp"
 #include "schemas/document.hpp"
@@ -68,25 +69,6 @@ void tally(request_router_self self, const running_request& request,
   home.observe(metric::request_seconds, {request.type}, span.count());
 }
 
-/// What it is about, for people who look for it.
-std::string subject_of(const json& document) {
-  for (const auto* name : {"task", "node", "instance"})
-    if (const auto i = document.find(name);
-        i != document.end() && i->is_string())
-      return i->get<std::string>();
-  return "";
-}
-
-/// Queries change nothing and are many: they would drive out all others. So
-/// would what is given to a command, whose beginning is told.
-bool is_remarkable(const std::string& type) {
-  constexpr std::string_view query = "_query";
-  if (type == exec_input::type)
-    return false;
-  return type.size() < query.size()
-         || type.compare(type.size() - query.size(), query.size(), query) != 0;
-}
-
 /// Whoever looks for it later finds who has asked for what.
 void note_begin(request_router_self self, const route_request& request,
                 const std::string& type, const json& document) {
@@ -97,8 +79,8 @@ void note_begin(request_router_self self, const route_request& request,
     data["from"] = request.from;
   if (const auto id = document.value("request_id", ""); !id.empty())
     data["request_id"] = id;
-  self->state.services->context.publish_event(events::request_received,
-                                              subject_of(document), data);
+  self->state.services->context.publish_event(
+      events::request_received, outline_of(document).subject, data);
 }
 
 void note_end(request_router_self self, const running_request& request,
@@ -141,7 +123,7 @@ void dispatch(request_router_self self, const request_runner& run,
               const std::string& id, json document, promise_type promise) {
   const auto& services = self->state.services;
   const auto type = document.at("type").get<std::string>();
-  const auto subject = subject_of(document);
+  const auto subject = outline_of(document).subject;
   const auto now = self->clock().now();
   const auto ticket =
       is_remarkable(type)

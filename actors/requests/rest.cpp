@@ -3,9 +3,9 @@
 #include "actors/core/answer_limits.hpp"
 #include "actors/core/shifted_times.hpp"
 #include "actors/core/watching.hpp"
-#include "actors/requests/access/audited.hpp"
 #include "actors/requests/access/role_table.hpp"
 #include "actors/requests/metrics/scrape.hpp"
+#include "actors/requests/request_outline.hpp"
 #include "actors/requests/rest_routes.hpp"
 #include "actors/requests/rest_streams.hpp"
 #include "messages/event_kinds.hpp"
@@ -73,13 +73,16 @@ void ask_router(exchange_pointer self, const request_router_actor& router,
           });
 }
 
+/// Writes down that somebody has asked for it, and what came of it.
 outcome_noter noter_of(const rest_services& services,
-                       const json_request& what) {
-  if (!services.services)
+                       const request_outline& asked, const std::string& from) {
+  if (!services.services || !services.services->audit
+      || !is_remarkable(asked.type))
     return [](const std::string&) {};
-  return [known = services.services, asked = audited_in(what.text),
-          from = what.from](const std::string& refusal) {
-    note_outcome(*known, asked, from, refusal);
+  return [audit = services.services->audit, asked,
+          from](const std::string& refusal) {
+    caf::anon_send(audit, note_change{from, asked.type, asked.subject,
+                                      refusal.empty() ? "done" : refusal});
   };
 }
 
@@ -87,11 +90,12 @@ introspected_actor::behavior_type rest_exchange(exchange_pointer self,
                                                 const rest_services& services,
                                                 const json_request& what,
                                                 const responder& answer) {
-  const auto note = noter_of(services, what);
-  if (const auto why = refuse_by_type(what.role, what.text)) {
+  const auto asked = outline_of(what.text);
+  const auto note = noter_of(services, asked, what.from);
+  if (const auto why = refuse_by_type(what.role, asked.type)) {
     note(std::string{to_word(why->code)});
     services.context.publish_event(
-        events::request_refused, audited_in(what.text).type,
+        events::request_refused, asked.type,
         {{"code", why->code}, {"message", why->message}, {"from", what.from}});
     answer.error(status_forbidden, why->code, why->message, why->hint);
     self->quit();

@@ -192,10 +192,10 @@ rest_route entry_route(const http_request& request) {
   const auto what = request.path.substr(site_path.size());
   if (what == "entry")
     return json_request{with_member(request.body, "exported", request.exported),
-                        "site_entry", request.from};
+                        "site_entry", request.from, request.role};
   if (what == "renewal")
     return json_request{with_member(request.body, "peer", request.peer),
-                        "site_renewal", request.from};
+                        "site_renewal", request.from, request.role};
   return not_found(request);
 }
 

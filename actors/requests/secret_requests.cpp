@@ -1,8 +1,6 @@
 #include "actors/requests/secret_requests.hpp"
 
-#include "actors/edge/http/http_types.hpp"
 #include "messages/secret.hpp"
-#include "messages/site.hpp"
 
 #include <string_view>
 #include <utility>
@@ -23,20 +21,11 @@ bool is_of_this_host(const std::string& from) {
          || begins_with(from, "operator ") || begins_with(from, "[::1]:");
 }
 
-/// What they say is completed where they come in, by what nobody else has.
-bool is_for_newcomers(const std::string& type) {
-  return type == site_entry::type || type == site_renewal::type;
-}
-
 } // namespace
 
 std::optional<failure> refuse_from_afar(const std::string& type,
                                         const std::string& from) {
   const bool by_node = begins_with(from, "node ");
-  if (is_for_newcomers(type) && !begins_with(from, newcomer_role))
-    return failure{error_code::unauthorized,
-                   "only who comes for an identity says a '" + type + "'", "",
-                   "`roscell node --invite` and `roscell login` do", ""};
   if (type == secret_setting::type && (by_node || !is_of_this_host(from)))
     return failure{error_code::unauthorized,
                    "a secret is set on the host of its node only: from '" + from

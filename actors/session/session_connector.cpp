@@ -3,6 +3,7 @@
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/edge/session/session_link.hpp"
 #include "actors/edge/session/site_token.hpp"
+#include "actors/edge/trust/site_identity.hpp"
 #include "actors/session/wire_session.hpp"
 #include "messages/failure.hpp"
 
@@ -54,6 +55,19 @@ session_settled settle(caf::actor_system& system, const actor_context& context,
   return {attempt, std::move(opened), {}};
 }
 
+/// Nobody would believe it: the site keeper asks there for another one, and
+/// the next attempt has that.
+caf::error wait_for_renewal(const connector_parts& parts,
+                            const open_session& request) {
+  if (parts.keeper)
+    caf::anon_send(parts.keeper,
+                   note_coordinator{request.address, request.uuid, false, 0});
+  return fail(error_code::unreachable,
+              "the certificate of this node has ended, and is being renewed at "
+                  + request.address,
+              "", "the events of this node say what comes of it");
+}
+
 caf::result<session_opened> open(session_connector_self self,
                                  const open_session& request) {
   auto& st = self->state;
@@ -62,6 +76,8 @@ caf::result<session_opened> open(session_connector_self self,
     return fail(error_code::unreachable,
                 "'" + request.address
                     + "' is not an address like 10.0.0.1:8420");
+  if (const auto& own = st.parts.site.identity(); own && own->has_ended())
+    return wait_for_renewal(st.parts, request);
   const auto attempt = ++st.attempts;
   auto promise = self->make_response_promise<session_opened>();
   st.pending.emplace(attempt, promise);

@@ -41,20 +41,13 @@ caf::error issue_own_identity(const node_config& config,
   if (const auto* why = std::get_if<edge_error>(&opened))
     return to_caf(*why);
   auto& site = std::get<site_folder>(opened);
-  const auto now = unix_now_ms() / 1000;
-  const auto issue = [&](site_role role) {
-    return site.issue({site.site().site(), role, config.name, uuid}, now,
-                      good_for_of(role));
-  };
-  const auto own = issue(site_role::coordinator);
-  if (const auto* why = std::get_if<edge_error>(&own))
+  constexpr auto role = site_role::coordinator;
+  const auto made = site.issue({site.site().site(), role, config.name, uuid},
+                               unix_now_ms() / 1000, good_for_of(role));
+  if (const auto* why = std::get_if<edge_error>(&made))
     return to_caf(*why);
-  const auto issuing = issue(site_role::issuer);
-  if (const auto* why = std::get_if<edge_error>(&issuing))
-    return to_caf(*why);
-  if (const auto why = keep_identity(
-          identity_file_of(config), std::get<own_identity>(own),
-          text_of(std::get<own_identity>(issuing)), site.signed_list()))
+  if (const auto why = keep_identity(identity_file_of(config),
+                                     std::get<kept_identity>(made)))
     return to_caf(*why);
   return caf::none;
 }
@@ -76,10 +69,8 @@ caf::error take_invitation(const node_config& config, const std::string& uuid) {
   const auto got = enter_site(*by, {config.name, uuid});
   if (const auto* problem = std::get_if<edge_error>(&got))
     return to_caf(*problem);
-  const auto& admission = std::get<site_admission>(got);
   if (const auto problem =
-          keep_identity(identity_file_of(config), admission.own,
-                        admission.issuing, admission.revoked))
+          keep_identity(identity_file_of(config), std::get<kept_identity>(got)))
     return to_caf(*problem);
   return caf::none;
 }

@@ -145,7 +145,8 @@ caf::result<identity_set> set_identity(site_keeper_pointer self,
   const auto& site = own->site;
   if (!x.revoked.empty() && !revocation_list::read(x.revoked, site))
     return misfit("that is no list of the revoked of its site", "/revoked");
-  if (const auto why = keep_identity(st.config.file, *own, *issuing, x.revoked))
+  if (const auto why =
+          keep_identity(st.config.file, {*own, *issuing, x.revoked}))
     return to_caf(*why);
   st.asked.reset();
   const bool later =
@@ -166,6 +167,8 @@ caf::result<revocations_set> set_revocations(site_keeper_pointer self,
                 "node '" + self->state.config.node
                     + "' has no identity, and so revokes none",
                 "", "`roscell site adopt` gives a cell identities");
+  if (auto why = refuse_while_changing(self))
+    return why;
   if (!take_list_of_revoked(self, x.list))
     return misfit("that is no list of the revoked of this node's site",
                   "/list");

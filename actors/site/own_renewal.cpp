@@ -1,4 +1,3 @@
-#include "actors/edge/http/client/http_call.hpp"
 #include "actors/edge/http/http_target.hpp"
 #include "actors/edge/io/socket_address.hpp"
 #include "actors/edge/trust/identity_place.hpp"
@@ -32,17 +31,14 @@ bool is_past_half_life(site_keeper_pointer self) {
          && site_time_s(self) >= half_life_s(own.chain.front());
 }
 
-bool has_ended(site_keeper_pointer self) {
-  return site_time_s(self) > self->state.config.identity->ends_unix_s();
-}
-
 void ask_for_renewal(site_keeper_pointer self, bool certificate) {
   auto& st = self->state;
   const auto place = parse_socket_address(st.coordinator->address);
-  if (!place || !st.config.io)
+  if (!place || !st.config.ask)
     return;
   st.is_renewing = true;
-  st.next_renewal = self->clock().now() + limits::site::renewal_pause;
+  if (certificate)
+    st.next_renewal = self->clock().now() + limits::site::renewal_pause;
   site_renewal what;
   what.certificate = certificate;
   http_call call;
@@ -56,21 +52,24 @@ void ask_for_renewal(site_keeper_pointer self, bool certificate) {
   call.body = message_json(what).dump();
   call.timeout = limits::site::renewal;
   call.max_reply_bytes = limits::trust::admission_bytes;
-  call_http(st.config.io, call,
-            [call, me = site_keeper_actor{self}](http_outcome outcome) {
-              renewal_answered answer;
-              auto result = to_edge_result(std::move(outcome), call);
-              if (const auto* why = std::get_if<edge_error>(&result))
-                answer.problem = why->message;
-              else
-                answer.text = std::get<http_reply>(std::move(result)).body;
-              caf::anon_send(me, std::move(answer));
-            });
+  st.config.ask(call,
+                [call, me = site_keeper_actor{self}](http_outcome outcome) {
+                  renewal_answered answer;
+                  auto result = to_edge_result(std::move(outcome), call);
+                  if (const auto* why = std::get_if<edge_error>(&result))
+                    answer.problem = why->message;
+                  else
+                    answer.text = std::get<http_reply>(std::move(result)).body;
+                  caf::anon_send(me, std::move(answer));
+                });
 }
 
+/// It is asked for again after a pause.
 void renewal_failed(site_keeper_pointer self, const std::string& why,
                     const std::string& hint = {}) {
   const auto& config = self->state.config;
+  self->state.timer.set(self,
+                        self->clock().now() + limits::site::renewal_pause);
   config.context.publish_event(events::renewal_failed, config.node,
                                {{"message", why}, {"hint", hint}});
 }
@@ -84,7 +83,7 @@ void take_certificate(site_keeper_pointer self, const std::string& chain) {
   const auto& own = std::get<own_identity>(read);
   if (!(own.who() == now.who()))
     return renewal_failed(self, "it is of " + text_of(own.who()));
-  if (const auto why = keep_identity(st.config.file, own, {}, {}))
+  if (const auto why = keep_identity(st.config.file, {own}))
     return renewal_failed(self, why->message, why->hint);
   st.config.identity->renew(own);
   publish_identity(self, own, false);
@@ -117,7 +116,7 @@ void meet_coordinator(site_keeper_pointer self, const note_coordinator& x) {
   }
   if (!st.config.identity)
     return;
-  if (x.present || has_ended(self))
+  if (x.present || st.config.identity->has_ended())
     seek_renewal(self);
   st.timer.set_anew(self, self->clock().now() + limits::site::renewal_look);
 }
@@ -125,7 +124,8 @@ void meet_coordinator(site_keeper_pointer self, const note_coordinator& x) {
 void take_renewal(site_keeper_pointer self, const renewal_answered& x) {
   auto& st = self->state;
   st.is_renewing = false;
-  if (!st.config.identity)
+  // Since it was asked the node may have been given what is of another site.
+  if (!st.config.identity || st.is_changing)
     return;
   if (!x.problem.empty())
     return renewal_failed(self, x.problem,

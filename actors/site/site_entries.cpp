@@ -66,6 +66,7 @@ caf::error note_issued(site_keeper_pointer self, const identity& who) {
     return fail(error_code::internal, why, "",
                 "check whether its disk has room");
   st.issued = std::move(all);
+  st.config.known->add(who.name, who.uuid);
   return caf::none;
 }
 
@@ -90,8 +91,26 @@ site_entered answer_of(site_keeper_pointer self) {
   return result;
 }
 
-bool is_for(const open_invitation& x, const std::string& node) {
-  return x.name.empty() || x.name == node;
+/// A name and a UUID that are another one's go with no invitation, and those
+/// of one who is known with none that does not name him.
+caf::error check_claim(site_keeper_pointer self, const open_invitation& by,
+                       const identity& who) {
+  if (!by.name.empty() && by.name != who.name)
+    return fail(error_code::unauthorized,
+                "the invitation is for another node than '" + who.name + "'",
+                "/node", "call the node as it says, with --name");
+  const auto claim = self->state.config.known->judge(who.name, who.uuid);
+  if (claim == known_nodes::claim::taken)
+    return fail(error_code::unauthorized,
+                "the UUID " + who.uuid + " is of another node than '" + who.name
+                    + "'",
+                "/uuid", "begin anew with --new-identity");
+  if (claim == known_nodes::claim::by_name && by.name.empty())
+    return fail(error_code::unauthorized,
+                "there has been a node '" + who.name + "'", "/node",
+                "`roscell site invite node " + who.name
+                    + "` invites it again; --name gives this one another name");
+  return caf::none;
 }
 
 /// What he has asked for can be made.
@@ -103,6 +122,25 @@ std::optional<identity> newcomer_in(site_keeper_pointer self,
   return read && *read == who ? read : std::nullopt;
 }
 
+/// A certificate for a newcomer who has proved that invitation.
+caf::expected<std::string> chain_for(site_keeper_pointer self,
+                                     const open_invitation& by,
+                                     const site_entry& x) {
+  const auto who = newcomer_in(self, x);
+  const auto key = key_in_request(from_hex(x.request).value_or(""));
+  if (!who || !key)
+    return fail(error_code::schema_violation,
+                who ? "that is no request for a certificate"
+                    : "an identity cannot be of '" + x.node
+                          + "' with the UUID '" + x.uuid + "'",
+                who ? "/request" : "/node");
+  if (auto why = check_claim(self, by, *who))
+    return why;
+  if (auto why = note_issued(self, *who))
+    return why;
+  return issue_chain(self, *who, key.get(), "invitation");
+}
+
 } // namespace
 
 caf::result<site_invited> keep_invitation(site_keeper_pointer self,
@@ -110,6 +148,8 @@ caf::result<site_invited> keep_invitation(site_keeper_pointer self,
   auto& st = self->state;
   if (!st.config.identity || (x.deposit.empty() && !st.issuer))
     return cannot_issue(self);
+  if (auto why = refuse_while_changing(self))
+    return why;
   if (x.deposit.empty() && x.role != to_word(site_role::node))
     return fail(error_code::schema_violation,
                 "a coordinator makes identities of nodes only", "/role",
@@ -142,37 +182,25 @@ caf::result<site_entered> let_in(site_keeper_pointer self,
   auto& st = self->state;
   if (!st.config.identity)
     return cannot_issue(self);
+  if (auto why = refuse_while_changing(self))
+    return why;
   const auto now = self->clock().now();
   const auto* open = st.invitations.find(x.invitation, now);
   const auto exported = from_hex(x.exported);
   if (open == nullptr || !exported
       || !proves_invitation(open->proving, *exported, x.proof))
     return no_such_invitation();
-  // What is wrong from here on costs him the invitation only once it was used.
-  const auto who = newcomer_in(self, x);
-  const auto key = key_in_request(from_hex(x.request).value_or(""));
-  if (open->deposit.empty() && (!who || !key))
-    return fail(error_code::schema_violation,
-                who ? "that is no request for a certificate"
-                    : "an identity cannot be of '" + x.node
-                          + "' with the UUID '" + x.uuid + "'",
-                who ? "/request" : "/node");
-  if (open->deposit.empty() && is_for(*open, x.node))
-    if (auto why = note_issued(self, *who))
-      return why;
-  const auto used = st.invitations.use(x.invitation, x.node, now);
-  if (const auto* why = std::get_if<invitation_problem>(&used))
-    return *why == invitation_problem::unknown
-               ? no_such_invitation()
-               : fail(error_code::unauthorized,
-                      "the invitation is for another node than '" + x.node
-                          + "'",
-                      "/node", "call the node as it says, with --name");
-  expect_newcomers(self);
   auto result = answer_of(self);
-  result.deposit = std::get<open_invitation>(used).deposit;
-  if (result.deposit.empty())
-    result.chain = issue_chain(self, *who, key.get(), "invitation");
+  result.deposit = open->deposit;
+  if (open->deposit.empty()) {
+    // What is wrong with it costs him no invitation.
+    auto chain = chain_for(self, *open, x);
+    if (!chain)
+      return chain.error();
+    result.chain = std::move(*chain);
+  }
+  st.invitations.use(x.invitation, now);
+  expect_newcomers(self);
   return result;
 }
 
@@ -181,6 +209,8 @@ caf::result<site_entered> renew_other(site_keeper_pointer self,
   auto& st = self->state;
   if (!st.config.identity)
     return cannot_issue(self);
+  if (auto why = refuse_while_changing(self))
+    return why;
   const auto shown = certificates_in(x.peer, 1);
   if (!shown || shown->empty() || !shown->front().who())
     return fail(error_code::unauthorized, "who asks shows no certificate");

@@ -49,6 +49,16 @@ void take_up_issuer(site_keeper_pointer self) {
 
 } // namespace
 
+caf::error refuse_while_changing(site_keeper_pointer self) {
+  const auto& st = self->state;
+  if (!st.is_changing)
+    return caf::none;
+  return fail(error_code::conflict,
+              "node '" + st.config.node
+                  + "' is about to take the identity that it was given",
+              "", "ask again in some seconds");
+}
+
 int64_t site_time_s(site_keeper_pointer self) {
   constexpr int64_t ms = 1000;
   const auto& identity = self->state.config.identity;
@@ -59,6 +69,9 @@ site_keeper_actor::behavior_type site_keeper(site_keeper_pointer self,
                                              const site_keeper_config& config) {
   self->state.config = config;
   self->state.issued = read_issued(config.file);
+  config.known->add(config.node, config.uuid);
+  for (const auto& [uuid, name] : self->state.issued)
+    config.known->add(name, uuid);
   take_up_issuer(self);
   return {
       [self](const state_query&) {

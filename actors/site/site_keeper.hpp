@@ -2,10 +2,11 @@
 
 #include "actors/core/actor_context.hpp"
 #include "actors/core/alarm.hpp"
-#include "actors/edge/io/io_thread.hpp"
+#include "actors/edge/http/client/http_call.hpp"
 #include "actors/edge/trust/invitation_table.hpp"
 #include "actors/edge/trust/site_identity.hpp"
 #include "actors/site/issued_names.hpp"
+#include "actors/site/known_nodes.hpp"
 #include "messages/messages.hpp"
 
 #include <chrono>
@@ -20,7 +21,8 @@ namespace roscell {
 
 struct site_keeper_config {
   actor_context context;
-  std::shared_ptr<io_core> io; ///< Null: it asks no coordinator.
+  /// Asks another node without waiting; null: it asks no coordinator.
+  std::function<void(http_call, std::function<void(http_outcome)>)> ask;
   std::string node;
   std::string uuid;
   bool coordinator = false;
@@ -28,7 +30,8 @@ struct site_keeper_config {
   /// Where its identity is, or will be; see identity_place.hpp.
   std::filesystem::path file;
   std::vector<std::string> addresses; ///< Where newcomers come: "ip:port".
-  std::function<void()> start_anew;   ///< See `node_additions`; may be null.
+  std::shared_ptr<known_nodes> known = std::make_shared<known_nodes>();
+  std::function<void()> start_anew; ///< See `node_additions`; may be null.
 };
 
 /// The keys that a certificate was asked for with.
@@ -68,6 +71,9 @@ site_keeper(site_keeper_actor::stateful_pointer<site_keeper_state> self,
 
 using site_keeper_pointer =
     site_keeper_actor::stateful_pointer<site_keeper_state>;
+
+/// Nothing is asked of one that is about to be of another site.
+caf::error refuse_while_changing(site_keeper_pointer self);
 
 /// Seconds since 1970, as far as this node can know.
 int64_t site_time_s(site_keeper_pointer self);

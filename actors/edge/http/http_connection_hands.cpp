@@ -1,7 +1,5 @@
 #include "actors/edge/http/http_connection.hpp"
 #include "actors/edge/http/http_shared.hpp"
-#include "actors/edge/io/crypto.hpp"
-#include "actors/edge/trust/invitation.hpp"
 #include "actors/edge/trust/limits.hpp"
 #include "actors/edge/trust/site_identity.hpp"
 
@@ -56,24 +54,6 @@ void http_connection::on_proved(const std::optional<distrusted>& why) {
     });
   // What was said of it by TLS is on its way.
   linger();
-}
-
-/// "operator anna at 10.0.0.3:40112"
-void http_connection::name_caller(http_request& request) {
-  const auto at = peer_name(socket_.bare());
-  if (newcomer_) {
-    request.role = newcomer_role;
-    request.from = "newcomer at " + at;
-    request.exported = to_hex(socket_.tls()->exported(invitation_label));
-    const auto chain = socket_.tls()->peer_chain();
-    if (peer_ && !chain.empty())
-      request.peer = chain.front().pem();
-  } else if (peer_) {
-    request.role = to_word(peer_->role);
-    request.from = request.role + " " + peer_->name + " at " + at;
-  } else if (request.method == "POST") {
-    request.from = at;
-  }
 }
 
 } // namespace roscell

@@ -82,4 +82,16 @@ std::string percent_encode(std::string_view text) {
   return result;
 }
 
+std::string encode_path(const std::string& path) {
+  std::string result;
+  size_t begin = 0;
+  for (size_t i = 0; i <= path.size(); ++i)
+    if (i == path.size() || path[i] == '/') {
+      result += percent_encode(std::string_view{path}.substr(begin, i - begin));
+      result += i < path.size() ? "/" : "";
+      begin = i + 1;
+    }
+  return result.substr(0, 2) == "//" ? "/" : result;
+}
+
 } // namespace roscell

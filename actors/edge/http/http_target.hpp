@@ -22,6 +22,10 @@ std::optional<http_target> parse_target(std::string_view target);
 /// digits, '-', '.', '_' and '~' escaped.
 std::string percent_encode(std::string_view text);
 
+/// A path as a header may say it: each segment so, its slashes as they are. One
+/// that begins with two, which would name another host, becomes "/".
+std::string encode_path(const std::string& path);
+
 // The paths that one node asks another one for; docs/operations.md lists all.
 
 /// Where a node's HTTP port takes sessions.

@@ -47,14 +47,12 @@ edge_result<std::optional<own_identity>> read_issuing(const fs::path& file) {
 }
 
 std::optional<edge_error> keep_identity(const fs::path& file,
-                                        const own_identity& own,
-                                        const std::string& issuing,
-                                        const std::string& revoked) {
-  if (auto why = keep_revoked(file, revoked))
+                                        const kept_identity& x) {
+  if (auto why = keep_revoked(file, x.revoked))
     return why;
-  if (auto why = keep_text(issuing_file_of(file), issuing))
+  if (auto why = keep_text(issuing_file_of(file), x.issuing))
     return why;
-  return keep_text(file, text_of(own));
+  return keep_text(file, text_of(x.own));
 }
 
 std::optional<edge_error> keep_revoked(const fs::path& file,

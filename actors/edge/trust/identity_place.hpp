@@ -18,12 +18,17 @@ std::filesystem::path revoked_file_of(const std::filesystem::path& file);
 edge_result<std::optional<own_identity>>
 read_issuing(const std::filesystem::path& file);
 
-/// Puts them there, the identity last, since with it the others count. What is
+/// All that somebody has for what he is.
+struct kept_identity {
+  own_identity own;
+  std::string issuing{}; ///< Of a coordinator, as PEM; else empty.
+  std::string revoked{}; ///< The site's list; may be empty.
+};
+
+/// Puts it there, the identity last, since with it the others count. What is
 /// empty stays as it was. Blocks on the disk. Errors: internal.
 std::optional<edge_error> keep_identity(const std::filesystem::path& file,
-                                        const own_identity& own,
-                                        const std::string& issuing,
-                                        const std::string& revoked);
+                                        const kept_identity& x);
 
 /// The same for the list alone.
 std::optional<edge_error> keep_revoked(const std::filesystem::path& file,

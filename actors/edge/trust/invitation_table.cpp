@@ -19,21 +19,11 @@ const open_invitation* invitation_table::find(const std::string& id,
                                                              : &found->second;
 }
 
-std::variant<open_invitation, invitation_problem>
-invitation_table::use(const std::string& id, const std::string& name,
-                      time_point now) {
-  const auto* found = find(id, now);
-  if (found == nullptr)
-    return invitation_problem::unknown;
-  if (!found->name.empty() && found->name != name)
-    return invitation_problem::other_name;
-  auto result = *found;
+bool invitation_table::use(const std::string& id, time_point now) {
+  if (find(id, now) == nullptr)
+    return false;
   by_id_.erase(id);
-  return result;
-}
-
-bool invitation_table::remove(const std::string& id) {
-  return by_id_.erase(id) > 0;
+  return true;
 }
 
 std::vector<open_invitation> invitation_table::all(time_point now) const {

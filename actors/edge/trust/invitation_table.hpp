@@ -7,7 +7,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace roscell {
@@ -23,11 +22,6 @@ struct open_invitation {
   std::chrono::steady_clock::time_point until;
 };
 
-enum class invitation_problem {
-  unknown, ///< Or used, or over: who asks is not told which.
-  other_name,
-};
-
 /// The open invitations of a coordinator, each good once. Pure; told the time,
 /// by a clock that nobody sets.
 class invitation_table {
@@ -40,12 +34,9 @@ public:
   /// Null: it is unknown, used or over.
   const open_invitation* find(const std::string& id, time_point now) const;
 
-  /// Its proof is right: it is good no more, whatever comes of the newcomer.
-  std::variant<open_invitation, invitation_problem>
-  use(const std::string& id, const std::string& name, time_point now);
-
-  /// Taken back. False: there is none.
-  bool remove(const std::string& id);
+  /// Whoever has proved it gets what he came for: it is good no more. False: it
+  /// is unknown, used or over.
+  bool use(const std::string& id, time_point now);
 
   std::vector<open_invitation> all(time_point now) const;
 

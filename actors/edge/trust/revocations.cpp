@@ -56,12 +56,18 @@ revocation_list::revocation_list(std::string site) : site_(std::move(site)) {
 }
 
 bool revocation_list::revokes(const certificate& x) const {
-  if (contains(x.serial()))
-    return true;
-  const auto owner = x.who() ? owners_.find(x.who()->uuid) : owners_.end();
+  return revokes(x.serial(), x.who() ? x.who()->uuid : std::string{},
+                 x.begins_unix_s());
+}
+
+bool revocation_list::revokes(const std::string& serial,
+                              const std::string& uuid,
+                              int64_t begins_unix_s) const {
+  const auto owner = owners_.find(uuid);
   // They begin earlier than they are made.
-  return owner != owners_.end()
-         && x.begins_unix_s() + limits::trust::early_s <= owner->second;
+  return contains(serial)
+         || (owner != owners_.end()
+             && begins_unix_s + limits::trust::early_s <= owner->second);
 }
 
 /// What has ended for good makes it.

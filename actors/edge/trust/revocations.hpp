@@ -44,6 +44,8 @@ public:
 
   /// Whether it counts no more.
   bool revokes(const certificate& x) const;
+  bool revokes(const std::string& serial, const std::string& uuid,
+               int64_t begins_unix_s) const;
 
   /// Adds one, under the next number. What cannot even be renewed any more is
   /// left out. False: the list is full.

@@ -155,9 +155,26 @@ std::optional<edge_error> site_folder::write(const char* name,
                     "check whether its disk has room"};
 }
 
-edge_result<own_identity> site_folder::issue(const identity& who,
-                                             int64_t now_unix_s,
-                                             int64_t good_for_s) {
+edge_result<kept_identity> site_folder::issue(const identity& who,
+                                              int64_t now_unix_s,
+                                              int64_t good_for_s) {
+  auto own = make(who, now_unix_s, good_for_s);
+  if (auto* why = std::get_if<edge_error>(&own))
+    return *why;
+  kept_identity result{
+      std::get<own_identity>(std::move(own)), {}, signed_list()};
+  if (who.role != site_role::coordinator)
+    return result;
+  const auto issuing = make({who.site, site_role::issuer, who.name, who.uuid},
+                            now_unix_s, good_for_of(site_role::issuer));
+  if (const auto* why = std::get_if<edge_error>(&issuing))
+    return *why;
+  result.issuing = text_of(std::get<own_identity>(issuing));
+  return result;
+}
+
+edge_result<own_identity>
+site_folder::make(const identity& who, int64_t now_unix_s, int64_t good_for_s) {
   const auto key = private_key::make();
   auto made = certify(who, key.get(), now_unix_s, good_for_s);
   if (auto* why = std::get_if<edge_error>(&made))

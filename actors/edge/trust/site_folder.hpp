@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/edge/disk/data_folder.hpp"
-#include "actors/edge/trust/identity_file.hpp"
+#include "actors/edge/trust/identity_place.hpp"
 #include "actors/edge/trust/revocations.hpp"
 
 #include <cstdint>
@@ -48,11 +48,12 @@ public:
   }
 
   /// Makes an identity, and writes down that there is one before it is given
-  /// away. Errors: internal (the disk).
-  edge_result<own_identity> issue(const identity& who, int64_t now_unix_s,
-                                  int64_t good_for_s);
+  /// away. A coordinator gets one to make those of nodes by, too. Errors:
+  /// internal (the disk).
+  edge_result<kept_identity> issue(const identity& who, int64_t now_unix_s,
+                                   int64_t good_for_s);
 
-  /// The same for one who has made that key himself.
+  /// Makes the certificate of one who has made that key himself.
   edge_result<certificate> certify(const identity& who, EVP_PKEY* key,
                                    int64_t now_unix_s, int64_t good_for_s);
 
@@ -66,6 +67,11 @@ public:
   std::optional<edge_error> revoke_owner(const std::string& uuid,
                                          int64_t now_unix_s);
 
+  /// Whether it counts no more.
+  bool is_revoked(const issued_certificate& x) const {
+    return revoked_.revokes(x.serial, x.who.uuid, x.begins_unix_s);
+  }
+
   /// The list as it is passed on.
   std::string signed_list() const {
     return revoked_.signed_text(key_);
@@ -76,6 +82,8 @@ private:
               private_key key, certificate site);
 
   edge_result<site_folder> loaded() &&;
+  edge_result<own_identity> make(const identity& who, int64_t now_unix_s,
+                                 int64_t good_for_s);
   std::optional<edge_error> take_list(revocation_list longer, bool has_room);
   std::optional<edge_error> write(const char* name, const std::string& text);
 

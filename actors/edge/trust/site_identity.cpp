@@ -31,11 +31,8 @@ site_identity::in_file(const std::filesystem::path& file) {
 /// The settings are this object's own, and no handshake outlives it.
 tls_settings site_identity::settings_of(const own_identity& own) {
   return {own, [this] {
-            {
-              const std::lock_guard guard{mutex_};
-              look_at_revoked();
-            }
-            notify_watchers();
+            if (look_at_revoked())
+              notify_watchers();
             return trust();
           }};
 }
@@ -70,19 +67,26 @@ void site_identity::renew(own_identity own) {
   settings_ = std::move(made);
 }
 
+bool site_identity::has_ended() const {
+  return trust().unix_s > ends_unix_s();
+}
+
 /// A file that has gone, or that the site has not signed, takes nothing back,
-/// nor does one of a lower number.
-void site_identity::look_at_revoked() {
+/// nor does one of a lower number. True: it is a longer one.
+bool site_identity::look_at_revoked() {
+  const std::lock_guard guard{mutex_};
   std::error_code problem;
   const auto written = std::filesystem::last_write_time(revoked_file_, problem);
   if (problem || written == seen_)
-    return;
+    return false;
   seen_ = written;
   const auto text =
       read_small_file(revoked_file_, limits::trust::revocations_bytes);
   auto list = revocation_list::read(text.value_or(""), own_.site);
-  if (list && (!revoked_ || list->number() > revoked_->number()))
-    revoked_ = std::make_shared<const revocation_list>(std::move(*list));
+  if (!list || (revoked_ && list->number() <= revoked_->number()))
+    return false;
+  revoked_ = std::make_shared<const revocation_list>(std::move(*list));
+  return true;
 }
 
 bool site_identity::take_revoked(revocation_list list) {
@@ -102,10 +106,13 @@ uint64_t site_identity::watch(const certificate& of,
   {
     const std::lock_guard guard{mutex_};
     result = ++last_ticket_;
-    watchers_.emplace(result, watcher{of, std::move(on_revoked)});
+    // The list may have grown between its handshake and this.
+    if (!revoked_ || !revoked_->revokes(of)) {
+      watchers_.emplace(result, watcher{of, std::move(on_revoked)});
+      return result;
+    }
   }
-  // The list may have grown between its handshake and this.
-  notify_watchers();
+  on_revoked();
   return result;
 }
 

@@ -43,6 +43,9 @@ public:
   own_identity own() const;
   int64_t ends_unix_s() const;
 
+  /// Nobody believes it now: it is to be renewed.
+  bool has_ended() const;
+
   /// For a connection of his.
   tls_settings settings() const;
 
@@ -77,7 +80,7 @@ private:
   };
 
   tls_settings settings_of(const own_identity& own);
-  void look_at_revoked();
+  bool look_at_revoked();
   void notify_watchers();
 
   const identity who_;

@@ -1,8 +1,8 @@
 #include "actors/requests/access/role_table.hpp"
 
 #include "actors/edge/http/http_target.hpp"
+#include "actors/requests/request_outline.hpp"
 #include "messages/failure.hpp"
-#include "schemas/document.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,6 +31,14 @@ constexpr std::array<std::string_view, 8> operators_queries{
     "reach_query", "examination_query",     "registration_query",
     "audit_query", "identity_request_query"};
 
+constexpr std::array<std::string_view, 2> newcomers_requests{"site_entry",
+                                                             "site_renewal"};
+
+bool is_for_newcomers(std::string_view type) {
+  return std::find(newcomers_requests.begin(), newcomers_requests.end(), type)
+         != newcomers_requests.end();
+}
+
 bool is_for_viewers(std::string_view path) {
   return !begins_with(path, builds_path) && path != registration_path
          && !ends_with(path, "/logs");
@@ -56,17 +64,6 @@ site_role role_of(const std::string& word) {
   return role_from(word).value_or(site_role::issuer);
 }
 
-/// The type that a request says; empty: it says none, and is refused for that.
-std::string type_in(const std::string& body) {
-  auto parsed = parse_document(body);
-  const auto* document = std::get_if<json>(&parsed);
-  if (document == nullptr || !document->is_object())
-    return {};
-  const auto type = document->find("type");
-  return type != document->end() && type->is_string() ? type->get<std::string>()
-                                                      : std::string{};
-}
-
 } // namespace
 
 bool may_use_path(site_role role, std::string_view method,
@@ -88,7 +85,7 @@ bool may_use_path(site_role role, std::string_view method,
 bool may_request(site_role role, std::string_view type) {
   if (role == site_role::operating)
     return true;
-  return role == site_role::viewer && ends_with(type, "_query")
+  return role == site_role::viewer && is_query(type)
          && std::find(operators_queries.begin(), operators_queries.end(), type)
                 == operators_queries.end();
 }
@@ -106,11 +103,16 @@ std::optional<failure> refuse_by_role(const http_request& request) {
 }
 
 std::optional<failure> refuse_by_type(const std::string& role,
-                                      const std::string& text) {
-  if (role.empty() || role_of(role) == site_role::operating)
-    return std::nullopt;
-  const auto type = type_in(text);
-  if (type.empty() || may_request(role_of(role), type))
+                                      const std::string& type) {
+  const bool is_newcomer = role == newcomer_role;
+  if (is_for_newcomers(type) != is_newcomer && !type.empty())
+    return failure{error_code::unauthorized,
+                   is_newcomer
+                       ? "who comes for an identity may ask for nothing else"
+                       : "only who comes for an identity says a '" + type + "'",
+                   "", "`roscell node --invite` and `roscell login` do", ""};
+  if (type.empty() || is_newcomer || role.empty()
+      || may_request(role_of(role), type))
     return std::nullopt;
   return refusal_of(role, "a '" + type + "'");
 }

@@ -27,10 +27,11 @@ bool may_request(site_role role, std::string_view type);
 /// Why an HTTP request is refused by its role and path; none: it is not.
 std::optional<failure> refuse_by_role(const http_request& request);
 
-/// The same for what is sent to `/v1/requests`, which is read for it, by
-/// somebody of this role. None too for what says no type, and is refused for
-/// that.
+/// The same for a request of that type, by somebody of this role; an empty one
+/// is trusted with all but what is for newcomers alone: what they say is
+/// completed where they come in, by what nobody else has. None too for one that
+/// says no type, and is refused for that.
 std::optional<failure> refuse_by_type(const std::string& role,
-                                      const std::string& text);
+                                      const std::string& type);
 
 } // namespace roscell

@@ -21,7 +21,8 @@ const std::string exported(64, 'e');
 
 /// The site keeper of a node, at a site of today.
 struct keeper_of_site : virtual_time {
-  explicit keeper_of_site(bool coordinator = true, bool identified = true) {
+  explicit keeper_of_site(bool coordinator = true, bool identified = true,
+                          int64_t good_for_s = limits::trust::machine_s) {
     config.context = context;
     config.node = coordinator ? "head" : "arm";
     config.uuid = "0a1b";
@@ -29,8 +30,12 @@ struct keeper_of_site : virtual_time {
     config.file = data.path() / "identity.pem";
     config.addresses = {"10.0.0.1:8420"};
     config.start_anew = [this] { ++started_anew; };
+    config.ask = [this](http_call call,
+                        const std::function<void(http_outcome)>&) {
+      asked.push_back(std::move(call));
+    };
     if (identified)
-      identify();
+      identify(good_for_s);
     start();
   }
 
@@ -38,14 +43,35 @@ struct keeper_of_site : virtual_time {
     kill(keeper);
   }
 
-  void identify() {
+  void identify(int64_t good_for_s) {
     const auto role =
         config.coordinator ? site_role::coordinator : site_role::node;
-    const auto own = site.issue(role, config.node, config.uuid);
+    const auto made = private_key::make();
+    const own_identity own{
+        made,
+        {make_certificate({site.name, role, config.node, config.uuid},
+                          made.get(), {site.key, site.mine}, clock_unix_s(),
+                          good_for_s)},
+        site.mine};
     const auto issuing = site.issue(site_role::issuer, "head", config.uuid);
-    REQUIRE_FALSE(keep_identity(config.file, own, text_of(issuing), {}));
+    REQUIRE_FALSE(keep_identity(config.file, {own, text_of(issuing)}));
     config.identity =
         std::make_shared<site_identity>(own, revoked_file_of(config.file));
+  }
+
+  void meet(bool present, int64_t revocations = 0) {
+    caf::anon_send(
+        keeper, note_coordinator{"10.0.0.1:8420", "0f", present, revocations});
+    settle();
+  }
+
+  void answer(const site_entered& x) {
+    caf::anon_send(keeper, renewal_answered{message_json(x).dump(), ""});
+    settle();
+  }
+
+  bool wants_certificate() const {
+    return json::parse(asked.back().body).value("certificate", false);
   }
 
   void start() {
@@ -93,6 +119,7 @@ struct keeper_of_site : virtual_time {
   site_keeper_config config;
   site_keeper_actor keeper;
   int started_anew = 0;
+  std::vector<http_call> asked; ///< Of coordinators.
 };
 
 template <class T>
@@ -140,6 +167,120 @@ TEST_CASE("an invitation that is not proved stays, and lets nobody in") {
         == error_code::schema_violation);
   CHECK(code_of(bench.enter("belt")) == error_code::unauthorized);
   CHECK(bench.enter("arm"));
+}
+
+TEST_CASE("what a known node is called goes with an invitation for it alone") {
+  keeper_of_site bench;
+  bench.config.known->add("arm", "0c0d");
+  REQUIRE(bench.invite());
+  // His own UUID does not help, nor does another one.
+  CHECK(code_of(bench.enter("arm")) == error_code::unauthorized);
+  auto other = bench.entry_of("arm");
+  other.uuid = "0e";
+  CHECK(code_of(bench.say<site_entered>(other)) == error_code::unauthorized);
+  // Nor may somebody have his UUID under another name, or be the coordinator.
+  CHECK(code_of(bench.enter("belt")) == error_code::unauthorized);
+  auto head = bench.entry_of("head");
+  head.uuid = "0e";
+  CHECK(code_of(bench.say<site_entered>(head)) == error_code::unauthorized);
+  // None of that has used it up.
+  other.node = "leg";
+  CHECK(bench.say<site_entered>(other));
+  keeper_of_site named;
+  named.config.known->add("arm", "0c0d");
+  REQUIRE(named.invite("arm"));
+  CHECK(named.enter("arm"));
+}
+
+TEST_CASE("a certificate is renewed past half of its time, and asked for again "
+          "after a pause") {
+  keeper_of_site fresh{false};
+  fresh.meet(true);
+  CHECK(fresh.asked.empty());
+  constexpr int64_t short_s = 1000;
+  keeper_of_site bench{false, true, short_s};
+  bench.meet(true);
+  REQUIRE(bench.asked.size() == 1);
+  CHECK(bench.wants_certificate());
+  CHECK(bench.asked.front().to.uuid == "0f");
+  // Who is asked has not answered yet.
+  bench.meet(true);
+  CHECK(bench.asked.size() == 1);
+  caf::anon_send(bench.keeper, renewal_answered{"", "it does not answer"});
+  bench.settle();
+  bench.advance(limits::site::renewal_pause - std::chrono::seconds{1});
+  CHECK(bench.asked.size() == 1);
+  bench.advance(std::chrono::seconds{1});
+  REQUIRE(bench.asked.size() == 2);
+  const auto now = bench.config.identity->own();
+  const auto made = make_certificate(now.who(), now.key.get(),
+                                     {bench.site.key, bench.site.mine},
+                                     clock_unix_s(), limits::trust::machine_s);
+  bench.answer({made.pem(), bench.site.mine.pem(), "", ""});
+  CHECK(bench.config.identity->own().chain.front().serial() == made.serial());
+  CHECK(std::get<own_identity>(read_identity_file(bench.config.file))
+            .chain.front()
+            .serial()
+        == made.serial());
+  bench.meet(true);
+  CHECK(bench.asked.size() == 2);
+}
+
+TEST_CASE("a certificate of another node or key is no renewal") {
+  constexpr int64_t short_s = 1000;
+  keeper_of_site bench{false, true, short_s};
+  const auto before = bench.config.identity->own().chain.front().serial();
+  bench.meet(true);
+  const auto offer = [&](const std::string& name, EVP_PKEY* key) {
+    bench.answer({make_certificate({"hall", site_role::node, name, "0a1b"}, key,
+                                   {bench.site.key, bench.site.mine},
+                                   clock_unix_s(), short_s)
+                      .pem(),
+                  bench.site.mine.pem(), "", ""});
+  };
+  offer("belt", bench.config.identity->own().key.get());
+  offer("arm", bench.key.get());
+  CHECK(bench.config.identity->own().chain.front().serial() == before);
+}
+
+TEST_CASE("a longer list of the revoked is fetched, and no certificate") {
+  keeper_of_site bench{false};
+  bench.meet(true, 1);
+  REQUIRE(bench.asked.size() == 1);
+  CHECK_FALSE(bench.wants_certificate());
+  const auto belt = bench.site.issue(site_role::node, "belt", "0e");
+  bench.answer(
+      {"", bench.site.mine.pem(), bench.list_without(belt.chain.front()), ""});
+  CHECK(bench.config.identity->trust().site.revoked->number() == 1);
+  bench.meet(true, 1);
+  CHECK(bench.asked.size() == 1);
+}
+
+TEST_CASE("an answer that comes too late does not undo another identity") {
+  constexpr int64_t short_s = 1000;
+  keeper_of_site bench{false, true, short_s};
+  bench.meet(true);
+  const auto asked = bench.say<identity_requested>(identity_request_query{});
+  const auto own = key_in_request(*from_hex(asked->request));
+  const site_of_today other{"yard"};
+  const auto made =
+      make_certificate({"yard", site_role::node, "arm", "0a1b"}, own.get(),
+                       {other.key, other.mine}, clock_unix_s(), short_s);
+  const auto set = bench.say<identity_set>(
+      identity_setting{"", made.pem(), "", other.mine.pem(), ""});
+  REQUIRE(set);
+  CHECK(set->later);
+  const auto now = bench.config.identity->own();
+  bench.answer({make_certificate(now.who(), now.key.get(),
+                                 {bench.site.key, bench.site.mine},
+                                 clock_unix_s(), short_s)
+                    .pem(),
+                bench.site.mine.pem(), "", ""});
+  CHECK(std::get<own_identity>(read_identity_file(bench.config.file)).who().site
+        == "yard");
+  CHECK(code_of(bench.say<revocations_set>(revocation_setting{
+            "", revocation_list{"hall"}.signed_text(bench.site.key)}))
+        == error_code::conflict);
 }
 
 TEST_CASE("an invitation is over after a day") {

@@ -32,6 +32,20 @@ invite() {
     > "$scratch/${2:-$1}.invitation" 2> "$scratch/out" || fail "$(cat "$scratch/out")"
 }
 
+# start_invited NAME: a node of head's cell that comes by an invitation.
+start_invited() {
+  invite node "$1"
+  start_node "$1" --interface lo --join "$(discovery_of head)" --cpu-floor 1 \
+    --label "place=$1" --invite "$scratch/$1.invitation"
+  await_joined head "$1"
+}
+
+# start_again NAME: the same, once it has its identity.
+start_again() {
+  start_node "$1" --interface lo --join "$(discovery_of head)" --cpu-floor 1 \
+    --label "place=$1"
+}
+
 # log_has NAME COUNT PATTERN: waits until so many lines of a node's log are so.
 log_has() {
   timeout "$deadline_s" grep -m "$2" "$3" > "$scratch/matches" \
@@ -62,6 +76,12 @@ test_two_empty_machines_are_one_cell_after_four_commands() {
     > "$scratch/out" 2>&1 && fail "an invitation was used twice"
   grep -q "was used, or is over" "$scratch/out" || fail "$(cat "$scratch/out")"
   [[ ! -e $scratch/belt/identity.pem ]] || fail "it has got an identity"
+  # Nor does anybody become arm by an invitation that does not say so.
+  invite node
+  ip netns exec "${hosts[1]}" "$ROSCELL" node --name arm --interface 10.231.7.2 \
+    --data-dir "$scratch/false" --port 0 --invite "$scratch/node.invitation" \
+    > "$scratch/out" 2>&1 && fail "somebody else is arm now"
+  grep -q "there has been a node 'arm'" "$scratch/out" || fail "$(cat "$scratch/out")"
   lines_come pick three
 }
 
@@ -93,8 +113,7 @@ test_a_cell_with_a_token_adopts_identities_and_no_instance_is_restarted() {
   expect "nodes" "$(get head /v1/cell | jq '.nodes | length')" 2
   # A restart, and the same again by renewals.
   stop_node arm
-  start_node arm --interface lo --join "$(discovery_of head)" --cpu-floor 1 \
-    --label place=arm
+  start_again arm
   lines_come pick three
   below head site renew --all --dir "$scratch/site" 2> "$scratch/out" \
     || fail "$(cat "$scratch/out")"
@@ -103,10 +122,7 @@ test_a_cell_with_a_token_adopts_identities_and_no_instance_is_restarted() {
 
 test_a_cell_takes_another_key_of_its_site_and_the_old_one_counts_no_more() {
   start_head
-  invite node
-  start_node arm --interface lo --join "$(discovery_of head)" --cpu-floor 1 \
-    --label place=arm --invite "$scratch/node.invitation"
-  await_joined head arm
+  start_invited arm
   run_on arm pick
   lines_come pick one
   issue operator anna head/site
@@ -117,20 +133,14 @@ test_a_cell_takes_another_key_of_its_site_and_the_old_one_counts_no_more() {
   "$ROSCELL" status --to "$(tcp_of head)" --identity "$scratch/anna.pem" \
     > "$scratch/out" 2>&1 && fail "the old key still counts"
   stop_node arm
-  start_node arm --interface lo --join "$(discovery_of head)" --cpu-floor 1 \
-    --label place=arm
+  start_again arm
   lines_come pick three
 }
 
 test_the_session_of_who_is_revoked_ends_and_data_of_the_others_flow() {
   start_head
   local name
-  for name in arm belt leg; do
-    invite node "$name"
-    start_node "$name" --interface lo --join "$(discovery_of head)" --cpu-floor 1 \
-      --label "place=$name" --invite "$scratch/$name.invitation"
-    await_joined head "$name"
-  done
+  for name in arm belt leg; do start_invited "$name"; done
   run_on arm pick
   lines_come pick one
   below head site revoke belt --dir "$scratch/head/site" 2> "$scratch/out" \
@@ -148,14 +158,13 @@ test_the_session_of_who_is_revoked_ends_and_data_of_the_others_flow() {
   stop_node leg
   below head site revoke leg --dir "$scratch/head/site" 2> "$scratch/out" \
     || fail "$(cat "$scratch/out")"
-  start_node leg --interface lo --join "$(discovery_of head)" --cpu-floor 1
+  start_again leg
   await leg 'tojson | contains("certificate revoked")' > /dev/null
   # The other member has the list, too.
   await arm '.event == "revocations_taken"' > /dev/null
   lines_come pick two
   stop_node arm
-  start_node arm --interface lo --join "$(discovery_of head)" --cpu-floor 1 \
-    --label place=arm
+  start_again arm
   lines_come pick three
 }
 
@@ -212,10 +221,7 @@ test_people_log_in_by_an_invitation_and_what_they_change_is_written_down() {
 
 test_a_secret_of_a_cell_reaches_all_of_its_nodes_by_identities_only() {
   start_head
-  invite node
-  start_node arm --interface lo --join "$(discovery_of head)" --cpu-floor 1 \
-    --label place=arm --invite "$scratch/node.invitation"
-  await_joined head arm
+  start_invited arm
   printf hunter2 | below head secret set broker --cell 2> "$scratch/out" \
     || fail "$(cat "$scratch/out")"
   local name
@@ -236,10 +242,7 @@ test_a_secret_of_a_cell_reaches_all_of_its_nodes_by_identities_only() {
 
 test_a_cell_that_asks_for_signatures_runs_what_an_operator_has_signed() {
   start_head --require-signed-skills
-  invite node
-  start_node arm --interface lo --join "$(discovery_of head)" --cpu-floor 1 \
-    --label place=arm --invite "$scratch/node.invitation"
-  await_joined head arm
+  start_invited arm
   issue operator anna head/site
   issue viewer wall head/site
   # It lies on each node, and nobody has signed it.

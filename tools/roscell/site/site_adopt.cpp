@@ -1,3 +1,4 @@
+#include "actors/edge/disk/data_folder.hpp"
 #include "actors/edge/io/crypto.hpp"
 #include "actors/edge/trust/limits.hpp"
 #include "messages/cell.hpp"
@@ -21,17 +22,6 @@ namespace roscell::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-cell_description cell_at(const node_client& node) {
-  auto cell = node.get("/v1/cell").get<cell_description>();
-  // Whose session the others' answers come by goes last.
-  std::stable_sort(cell.nodes.begin(), cell.nodes.end(),
-                   [&](const auto& a, const auto& b) {
-                     return a.identity.name != cell.coordinator
-                            && b.identity.name == cell.coordinator;
-                   });
-  return cell;
-}
 
 bool holds(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -63,21 +53,6 @@ std::vector<identity_requested> ask_all(const site_options& options,
                             + "' answer: " + printable(silent),
                         "wait for them, or leave them out with --without "
                         "NODE, and invite them later"};
-  return result;
-}
-
-/// By UUID: whom a coordinator has made identities for, as its site keeper
-/// shows it.
-std::map<std::string, std::string> issued_in(const json& reply) {
-  std::map<std::string, std::string> result;
-  const auto actors = reply.value("actors", json::array());
-  for (const auto& actor : actors) {
-    const auto state = actor.value("state", json::object());
-    const auto issued = state.value("issued", json::object());
-    for (const auto& [uuid, name] : issued.items())
-      if (name.is_string())
-        result[uuid] = name.get<std::string>();
-  }
   return result;
 }
 
@@ -178,12 +153,9 @@ int rotate(const site_options& options) {
   auto moved = options;
   moved.folder = next;
   adopt(moved);
-  auto former = folder;
-  former += ".former";
-  fs::remove_all(former, problem);
-  fs::rename(folder, former, problem);
-  if (!problem)
-    fs::rename(next, folder, problem);
+  // A former one stays: whoever has stolen its key is known by it.
+  const auto former = unless_failed(put_aside(folder));
+  fs::rename(next, folder, problem);
   if (problem)
     throw command_error{exit_refused,
                         "the new site stays in '" + printable(next.string())
@@ -196,93 +168,43 @@ int rotate(const site_options& options) {
   return exit_done;
 }
 
-void add_without(CLI::App& command, const site_options_ptr& options) {
-  command.add_option("--without", options->without, "Leave that node as it is")
+/// What these commands have in common.
+CLI::App* add_for_cell(CLI::App& site, action& chosen,
+                       const site_options_ptr& options, const char* name,
+                       const char* what, int (*run)(const site_options&)) {
+  auto* command = add_command(site, options, name, what);
+  command->add_option("--without", options->without, "Leave that node as it is")
       ->allow_extra_args(false)
       ->option_text("NODE...");
-  add_connection_options(command, options->connection);
+  add_connection_options(*command, options->connection);
+  run_by(*command, chosen, options, run);
+  return command;
 }
 
 } // namespace
 
-void pass_list_on(const site_options& options, const site_folder& site) {
-  const auto list = site.signed_list();
-  std::string missed;
-  try {
-    const node_client node{options.connection};
-    auto nodes = cell_at(node).nodes;
-    // Whom all others ask knows it first.
-    std::reverse(nodes.begin(), nodes.end());
-    for (const auto& row : nodes)
-      try {
-        node.ask(message_json(revocation_setting{row.identity.name, list}),
-                 site_answer_limit);
-      } catch (const refused&) {
-        missed += (missed.empty() ? "'" : ", '") + row.identity.name + "'";
-      }
-    print_note("the cell knows"
-               + (missed.empty() ? std::string{}
-                                 : ", but for " + printable(missed)
-                                       + ", which hears it when it is back"));
-  } catch (const std::runtime_error& why) {
-    print_note("no cell was told (" + printable(why.what())
-               + "): --to names its coordinator, or copy '"
-               + printable((folder_of(options) / "revoked").string())
-               + "' beside the identity of each node, as "
-                 "IDENTITY_FILE.revoked");
-  }
-}
-
-std::vector<std::string> uuids_in_cell(const site_options& options,
-                                       const std::string& name) {
-  std::vector<std::string> result;
-  try {
-    const node_client node{options.connection};
-    for (const auto& row : cell_at(node).nodes)
-      if (row.identity.name == name)
-        result.push_back(row.identity.uuid);
-    // Who is away is in no cell now.
-    const auto keeper = node.get("/v1/actors/site-keeper");
-    for (const auto& [uuid, called] : issued_in(keeper))
-      if (called == name || uuid == name)
-        result.push_back(uuid);
-  } catch (const std::runtime_error&) {
-    // Said when the list is passed on.
-    return result;
-  }
-  return result;
-}
-
 void add_adopting(CLI::App& site, action& chosen) {
-  auto adopting = std::make_shared<site_options>();
+  add_for_cell(site, chosen, std::make_shared<site_options>(), "adopt",
+               "Give all nodes of a cell that has a token identities.", adopt)
+      ->footer("No instance is restarted. Nodes that do not answer keep the "
+               "whole cell as it is.\n\n"
+               "Examples:\n  roscell site adopt\n"
+               "  roscell site adopt --to 10.0.0.1 --without old-arm");
+  const auto renewing = std::make_shared<site_options>();
   auto* command =
-      add_command(site, adopting, "adopt",
-                  "Give all nodes of a cell that has a token identities.");
-  command->footer("No instance is restarted. Nodes that do not answer keep the "
-                  "whole cell as it is.\n\n"
-                  "Examples:\n  roscell site adopt\n"
-                  "  roscell site adopt --to 10.0.0.1 --without old-arm");
-  add_without(*command, adopting);
-  run_by(*command, chosen, adopting, adopt);
-
-  auto renewing = std::make_shared<site_options>();
-  command = add_command(site, renewing, "renew",
-                        "Renew the certificates of a cell's coordinators, and "
-                        "of its nodes, which else renew themselves.");
+      add_for_cell(site, chosen, renewing, "renew",
+                   "Renew the certificates of a cell's coordinators, and of "
+                   "its nodes, which else renew themselves.",
+                   renew);
   command->footer(
       "Examples:\n  roscell site renew\n  roscell site renew --all");
   command->add_flag("--all", renewing->all,
                     "Also those that have more than half of their time");
-  add_without(*command, renewing);
-  run_by(*command, chosen, renewing, renew);
-
-  auto rotating = std::make_shared<site_options>();
-  command = add_command(site, rotating, "rotate",
-                        "Give the site another key, and a cell identities of "
-                        "it, where the old key was lost or stolen.");
-  command->footer("Examples:\n  roscell site rotate");
-  add_without(*command, rotating);
-  run_by(*command, chosen, rotating, rotate);
+  add_for_cell(site, chosen, std::make_shared<site_options>(), "rotate",
+               "Give the site another key, and a cell identities of it, where "
+               "the old key was lost or stolen.",
+               rotate)
+      ->footer("Examples:\n  roscell site rotate");
 }
 
 } // namespace roscell::cli

@@ -11,11 +11,10 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
-#include <optional>
-#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -39,6 +38,16 @@ void give_up_site(const edge_error& why) {
 
 site_folder open_site(const site_options& options) {
   return unless_failed(site_folder::open(folder_of(options)));
+}
+
+cell_description cell_at(const node_client& node) {
+  auto cell = node.get("/v1/cell").get<cell_description>();
+  std::stable_sort(cell.nodes.begin(), cell.nodes.end(),
+                   [&](const auto& a, const auto& b) {
+                     return a.identity.name != cell.coordinator
+                            && b.identity.name == cell.coordinator;
+                   });
+  return cell;
 }
 
 std::string names_a_role(const std::string& text) {
@@ -111,13 +120,8 @@ int issue_identity(const site_options& options) {
                             ? good_for_of(*role)
                             : parse_span(options.good_for).count();
   const auto made = unless_failed(site.issue(who, unix_now_s(), good_for));
-  std::string issuing;
-  if (*role == site_role::coordinator)
-    issuing = text_of(unless_failed(
-        site.issue({who.site, site_role::issuer, who.name, who.uuid},
-                   unix_now_s(), good_for_of(site_role::issuer))));
   // Its owner alone can read it.
-  if (const auto why = keep_identity(file, made, issuing, site.signed_list()))
+  if (const auto why = keep_identity(file, made))
     throw command_error{exit_refused, why->message,
                         "it was made, and is in no file: revoke it"};
   print_note("'" + printable(file.string()) + "' is the identity of "
@@ -126,16 +130,8 @@ int issue_identity(const site_options& options) {
   return exit_done;
 }
 
-bool is_revoked(const site_folder& site, const issued_certificate& x) {
-  const auto& owners = site.revoked().owners();
-  const auto owner = owners.find(x.who.uuid);
-  return site.revoked().contains(x.serial)
-         || (owner != owners.end()
-             && x.begins_unix_s + limits::trust::early_s <= owner->second);
-}
-
 std::string state_of(const site_folder& site, const issued_certificate& x) {
-  if (is_revoked(site, x))
+  if (site.is_revoked(x))
     return "revoked";
   return x.ends_unix_s < unix_now_s() ? "ended" : "good";
 }
@@ -167,62 +163,6 @@ int list_site(const site_options& options) {
     result.rows.push_back({to_word(x.who.role), x.who.name, x.who.uuid,
                            state_of(site, x), x.serial});
   print(result.render(view_style_now().text));
-  return exit_done;
-}
-
-/// Certificates are made by the clocks of coordinators, which may be ahead.
-constexpr int64_t clock_margin_s = 60;
-
-const issued_certificate* find_serial(const site_folder& site,
-                                      const std::string& serial) {
-  for (const auto& x : site.issued())
-    if (x.serial == serial)
-      return &x;
-  return nullptr;
-}
-
-/// Of all that are called so: here, and in the cell, whose coordinators make
-/// identities, too.
-std::set<std::string> find_owners(const site_options& options,
-                                  const site_folder& site) {
-  std::set<std::string> result;
-  for (const auto& x : site.issued())
-    if ((x.who.name == options.name || x.who.uuid == options.name)
-        && !is_revoked(site, x))
-      result.insert(x.who.uuid);
-  for (const auto& uuid : uuids_in_cell(options, options.name))
-    result.insert(uuid);
-  return result;
-}
-
-int revoke_identity(const site_options& options) {
-  auto site = open_site(options);
-  const auto refuse = [](std::optional<edge_error> why) {
-    if (why)
-      throw command_error{exit_refused, why->message, why->hint};
-  };
-  const auto* one = find_serial(site, options.name);
-  if (one != nullptr) {
-    refuse(site.revoke(issued_certificate{*one}, unix_now_s()));
-    print_note("the certificate " + one->serial + " of "
-               + printable(text_of(one->who)) + " counts no more");
-    pass_list_on(options, site);
-    return exit_done;
-  }
-  const auto owners = find_owners(options, site);
-  if (owners.empty())
-    throw command_error{exit_usage,
-                        "no identity of '" + printable(options.name)
-                            + "' counts at site '"
-                            + printable(site.site().site()) + "'",
-                        "`roscell site list` shows what was made here, and "
-                        "--to names the cell that it is in"};
-  for (const auto& uuid : owners) {
-    refuse(site.revoke_owner(uuid, unix_now_s() + clock_margin_s));
-    print_note("what '" + printable(options.name) + "' with UUID "
-               + printable(uuid) + " had counts no more");
-  }
-  pass_list_on(options, site);
   return exit_done;
 }
 
@@ -272,18 +212,6 @@ void add_looking(CLI::App& site, action& chosen) {
   list->footer("Examples:\n  roscell site list -o json");
   add_output_option(*list, options->output);
   run_by(*list, chosen, options, list_site);
-}
-
-void add_revoking(CLI::App& site, action& chosen) {
-  auto options = std::make_shared<site_options>();
-  auto* revoke =
-      add_command(site, options, "revoke", "Have identities count no more.");
-  revoke->footer("Examples:\n  roscell site revoke arm");
-  revoke->add_option("WHO", options->name, "A name, a UUID or a serial")
-      ->required()
-      ->option_text(" ");
-  add_connection_options(*revoke, options->connection);
-  run_by(*revoke, chosen, options, revoke_identity);
 }
 
 } // namespace

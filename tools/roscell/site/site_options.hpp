@@ -1,6 +1,7 @@
 #pragma once
 
 #include "actors/edge/trust/site_folder.hpp"
+#include "messages/cell.hpp"
 #include "tools/roscell/client/node_client.hpp"
 #include "tools/roscell/commands.hpp"
 
@@ -59,14 +60,12 @@ void add_inviting(CLI::App& site, action& chosen);
 /// adopt, renew and rotate.
 void add_adopting(CLI::App& site, action& chosen);
 
-/// Gives the list of the revoked to the coordinator and his cell, as far as
-/// they can be reached, and says who was not.
-void pass_list_on(const site_options& options, const site_folder& site);
+/// revoke.
+void add_revoking(CLI::App& site, action& chosen);
 
-/// The certificate's owner and UUIDs in a cell that are called so; empty: there
-/// is no cell to ask, or nobody in it.
-std::vector<std::string> uuids_in_cell(const site_options& options,
-                                       const std::string& name);
+/// The cell of a coordinator, himself the last: the others' answers come by
+/// him. Throws as `node_client` does.
+cell_description cell_at(const node_client& node);
 
 template <class T>
 T unless_failed(edge_result<T> result) {

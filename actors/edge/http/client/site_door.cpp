@@ -178,9 +178,9 @@ edge_result<site_entered> read_reply(const std::string& address,
 }
 
 /// All of it for him who has the secret.
-edge_result<site_admission> open_deposit(const invitation& by,
-                                         const std::string& address,
-                                         const std::string& deposit) {
+edge_result<kept_identity> open_deposit(const invitation& by,
+                                        const std::string& address,
+                                        const std::string& deposit) {
   const auto spoiled = door_refusal(error_code::schema_violation, address,
                                     "what was kept for this invitation cannot "
                                     "be opened",
@@ -194,19 +194,19 @@ edge_result<site_admission> open_deposit(const invitation& by,
   auto own = read_identity(document->value("own", ""));
   if (const auto* why = std::get_if<edge_error>(&own))
     return *why;
-  return site_admission{std::get<own_identity>(std::move(own)),
-                        document->value("issuing", ""),
-                        {}};
+  return kept_identity{std::get<own_identity>(std::move(own)),
+                       document->value("issuing", ""),
+                       {}};
 }
 
 /// Of a key that has never left this machine.
-edge_result<site_admission> take_certificate(const std::string& address,
-                                             const private_key& key,
-                                             const site_entered& got) {
+edge_result<kept_identity> take_certificate(const std::string& address,
+                                            const private_key& key,
+                                            const site_entered& got) {
   auto own = read_identity(key.pem() + got.chain + got.site);
   if (const auto* why = std::get_if<edge_error>(&own))
     return door_refusal(why->code, address, why->message, why->hint);
-  return site_admission{std::get<own_identity>(std::move(own)), {}, {}};
+  return kept_identity{std::get<own_identity>(std::move(own)), {}, {}};
 }
 
 /// Whoever answers is to be of the site that was meant, and a coordinator.
@@ -236,9 +236,9 @@ std::optional<edge_error> check_host(const invitation& by,
   return std::nullopt;
 }
 
-edge_result<site_admission> enter_at(const invitation& by,
-                                     const std::string& address,
-                                     const site_newcomer& who) {
+edge_result<kept_identity> enter_at(const invitation& by,
+                                    const std::string& address,
+                                    const site_newcomer& who) {
   const auto place = parse_host_address(address);
   if (!place)
     return door_refusal(error_code::unreachable, address, "no such address");
@@ -278,16 +278,16 @@ edge_result<site_admission> enter_at(const invitation& by,
   auto result = entered.deposit.empty()
                     ? take_certificate(address, key, entered)
                     : open_deposit(by, address, entered.deposit);
-  if (auto* admission = std::get_if<site_admission>(&result))
+  if (auto* admission = std::get_if<kept_identity>(&result))
     admission->revoked = entered.revoked;
   return result;
 }
 
 } // namespace
 
-edge_result<site_admission> enter_site(const invitation& by,
-                                       const site_newcomer& who) {
-  edge_result<site_admission> result = edge_error{
+edge_result<kept_identity> enter_site(const invitation& by,
+                                      const site_newcomer& who) {
+  edge_result<kept_identity> result = edge_error{
       error_code::unreachable, "the invitation names no address", {}};
   for (const auto& address : by.addresses) {
     result = enter_at(by, address, who);
@@ -298,11 +298,8 @@ edge_result<site_admission> enter_site(const invitation& by,
   return result;
 }
 
-std::string deposit_of(const own_identity& own, const own_identity* issuing) {
-  return json{
-      {"own", text_of(own)},
-      {"issuing", issuing == nullptr ? std::string{} : text_of(*issuing)}}
-      .dump();
+std::string deposit_of(const kept_identity& x) {
+  return json{{"own", text_of(x.own)}, {"issuing", x.issuing}}.dump();
 }
 
 } // namespace roscell

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "actors/edge/io/edge_error.hpp"
-#include "actors/edge/trust/identity_file.hpp"
+#include "actors/edge/trust/identity_place.hpp"
 #include "actors/edge/trust/invitation.hpp"
 
 #include <string>
@@ -14,13 +14,6 @@ struct site_newcomer {
   std::string uuid;
 };
 
-/// What he gets there.
-struct site_admission {
-  own_identity own;
-  std::string issuing; ///< The identity by which he makes others', or empty.
-  std::string revoked; ///< The site's list.
-};
-
 /// Proves an invitation to the coordinators that it names, one after another,
 /// and comes back with an identity: of a key that is made here, or one that was
 /// made for him. The secret is not sent, and nobody is believed whose site is
@@ -30,11 +23,10 @@ struct site_admission {
 /// Errors: unreachable (none of them answers), unauthorized (the invitation is
 /// unknown, used or over, or is for another name; another site is there),
 /// schema_violation (what came makes no sense), internal.
-edge_result<site_admission> enter_site(const invitation& by,
-                                       const site_newcomer& who);
+edge_result<kept_identity> enter_site(const invitation& by,
+                                      const site_newcomer& who);
 
 /// What an invitation keeps for him in place of a certificate: see `seal_text`.
-/// @param issuing as in `site_admission`.
-std::string deposit_of(const own_identity& own, const own_identity* issuing);
+std::string deposit_of(const kept_identity& x);
 
 } // namespace roscell

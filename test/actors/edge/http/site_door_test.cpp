@@ -56,7 +56,7 @@ struct site_host {
                           + std::chrono::hours{1});
   }
 
-  edge_result<site_admission> enter(const certificate& of) const {
+  edge_result<kept_identity> enter(const certificate& of) const {
     return enter_site({site.name,
                        of.digest().substr(0, invitation_digits),
                        {"127.0.0.1:" + std::to_string(server->port())},
@@ -98,10 +98,9 @@ TEST_CASE("what waits for a newcomer only he can open") {
   site_host host{site};
   host.open();
   const auto anna = site.issue(site_role::operating, "anna", "0e");
-  host.deposit = to_hex(seal_text(door_secret, deposit_of(anna, nullptr)));
+  host.deposit = to_hex(seal_text(door_secret, deposit_of({anna})));
   CHECK(expect(host.enter(site.mine)).own.who() == anna.who());
-  host.deposit =
-      to_hex(seal_text(std::string(32, 'd'), deposit_of(anna, nullptr)));
+  host.deposit = to_hex(seal_text(std::string(32, 'd'), deposit_of({anna})));
   CHECK(host.refusal(site.mine) == error_code::schema_violation);
 }
 

@@ -76,27 +76,23 @@ TEST_CASE("that one has an invitation is proved for one connection") {
         == std::string::npos);
 }
 
-TEST_CASE("an invitation is good once, for its name, and until its end") {
+TEST_CASE("an invitation is good once, and until its end") {
   invitation_table table;
   const time_point start{};
   const auto end = start + 24h;
   CHECK(table.add(open("1", end), start));
   CHECK_FALSE(table.add(open("1", end), start));
   CHECK(table.add(open("2", end, "arm"), start));
-  CHECK(std::get<invitation_problem>(table.use("3", "arm", start))
-        == invitation_problem::unknown);
-  CHECK(std::get<open_invitation>(table.use("1", "arm", start)).proving
-        == secret);
-  CHECK(std::get<invitation_problem>(table.use("1", "arm", start))
-        == invitation_problem::unknown);
-  // A name that it is not for does not use it up.
-  CHECK(std::get<invitation_problem>(table.use("2", "leg", start))
-        == invitation_problem::other_name);
+  CHECK_FALSE(table.use("3", start));
+  CHECK(table.find("1", start)->proving == secret);
+  CHECK(table.use("1", start));
+  CHECK(table.find("1", start) == nullptr);
+  CHECK_FALSE(table.use("1", start));
   CHECK(table.find("2", end - 1ns) != nullptr);
   CHECK(table.find("2", end) == nullptr);
   CHECK(table.all(end).empty());
-  CHECK(std::holds_alternative<open_invitation>(
-      table.use("2", "arm", end - 1ns)));
+  CHECK_FALSE(table.use("2", end));
+  CHECK(table.use("2", end - 1ns));
 }
 
 TEST_CASE("open invitations are bounded, and past ones make room") {
@@ -105,8 +101,7 @@ TEST_CASE("open invitations are bounded, and past ones make room") {
   for (size_t i = 0; i < limits::trust::invitations; ++i)
     REQUIRE(table.add(open(std::to_string(i), start + 1s), start));
   CHECK_FALSE(table.add(open("x", start + 9s), start));
-  CHECK(table.remove("0"));
-  CHECK_FALSE(table.remove("0"));
+  CHECK(table.use("0", start));
   CHECK(table.add(open("x", start + 9s), start));
   CHECK_FALSE(table.add(open("y", start + 9s), start));
   CHECK(table.add(open("y", start + 9s), start + 1s));

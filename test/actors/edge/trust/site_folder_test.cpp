@@ -54,8 +54,9 @@ TEST_CASE("a site is made once, and is the same when it is opened again") {
     digest = site.site().digest();
     const auto made =
         value_of(site.issue(arm(), site_made_unix_s, limits::trust::machine_s));
-    serial = made.chain.front().serial();
-    CHECK(made.who() == arm());
+    serial = made.own.chain.front().serial();
+    CHECK(made.own.who() == arm());
+    CHECK(made.issuing.empty());
     // Another command waits for its turn.
     CHECK(error_of(site_folder::open(place)).code == error_code::conflict);
   }
@@ -83,6 +84,22 @@ TEST_CASE("what was revoked stays so when a site is opened again") {
   const auto site = value_of(site_folder::open(place));
   CHECK(site.revoked().number() == 1);
   CHECK(site.revoked().contains(site.issued().front().serial));
+}
+
+TEST_CASE("a coordinator gets by what it makes identities of nodes") {
+  temp_folder folder;
+  auto site = value_of(
+      site_folder::create(folder.path() / "site", "hall", site_made_unix_s));
+  const identity head{"hall", site_role::coordinator, "head", "0a1b"};
+  const auto made = value_of(site.issue(head, site_made_unix_s, 1000));
+  const auto issuing = value_of(read_identity(made.issuing));
+  CHECK(issuing.who() == identity{"hall", site_role::issuer, "head", "0a1b"});
+  CHECK(site.issued().size() == 2);
+  const auto file = folder.path() / "head.pem";
+  CHECK_FALSE(keep_identity(file, made));
+  CHECK(value_of(read_identity_file(file)).who() == head);
+  CHECK(value_of(read_issuing(file)).has_value());
+  CHECK_FALSE(value_of(read_issuing(folder.path() / "none.pem")).has_value());
 }
 
 TEST_CASE("the key of a site is for its user alone") {
@@ -129,7 +146,7 @@ TEST_CASE("an identity is a file for its user alone") {
       site_folder::create(folder.path() / "site", "hall", site_made_unix_s));
   const auto made = value_of(site.issue(arm(), site_made_unix_s, 1000));
   const auto file = folder.path() / "arm.pem";
-  write(file, text_of(made));
+  write(file, text_of(made.own));
   ::chmod(file.c_str(), 0600);
   const auto read = value_of(read_identity_file(file));
   CHECK(read.who() == arm());
