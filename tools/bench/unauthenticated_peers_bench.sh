@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# What identities cost a member beside the token, and what 200 strangers a second do to
-# a cell of identities in a minute: without a certificate, and with one of another site
-# of the same name. One JSON line a figure; ends with 1 if a bound is broken.
+# What identities cost a member beside the token, and what 200 who come each second do to
+# a cell of identities in a minute: strangers without a certificate, with one of another
+# site of the same name, and with a false invitation while one is open; and an operator
+# who is believed, so often. One JSON line a figure; ends with 1 if a bound is broken.
 # Usage: tools/bench/unauthenticated_peers_bench.sh BUILD_DIR [SECONDS]
 set -uo pipefail
 cd "$(dirname "$0")/../.."
@@ -17,6 +18,7 @@ make_site hall
 make_site hall other
 issue coordinator head
 issue operator eve other
+issue operator anna
 
 start_node plain --coordinator --cell plain --interface lo
 start_node guest --join "$(discovery_of plain)" --interface lo
@@ -42,8 +44,8 @@ storm() {
   memory=$(memory_kib head Private_Dirty)
   read -r done_ broken_off < <(python3 tools/bench/unauthenticated_peers.py \
     "$(tcp_of head | cut -d: -f2)" 200 "$seconds" "${@:2}")
-  figure "handshakes of strangers $what" "$done_" ""
-  figure "handshakes of strangers $what that were broken off" "$broken_off" ""
+  figure "handshakes of those $what" "$done_" ""
+  figure "handshakes of those $what that were broken off" "$broken_off" ""
   figure "coordinator's CPU meanwhile" "$((($(cpu_ns head) - cpu) / seconds / 10000000))" "%"
   grown=$(($(memory_kib head Private_Dirty) - memory))
   figure "coordinator's Private_Dirty, grown" "$grown" KiB
@@ -52,6 +54,10 @@ storm() {
 
 storm "without a certificate"
 storm "of another site" "$scratch/eve.pem"
+"$ROSCELL" site invite --to "$scratch/head/node.sock" > /dev/null 2>&1 \
+  || fail "no invitation"
+storm "with a false invitation" door
+storm "who are believed" "$scratch/anna.pem"
 lost=$("$ROSCELL" events --to "$scratch/head/node.sock" --no-follow -o json 2> /dev/null \
   | grep -c '"node_lost"\|"session_lost"')
 figure "members lost meanwhile" "$lost" ""
